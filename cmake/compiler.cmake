@@ -1,0 +1,25 @@
+# Compiler settings of our own targets: halfspace_compile_options(TARGET).
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+if(HALFSPACE_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(HALFSPACE_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+endif()
+
+function(halfspace_compile_options target)
+  # Cuts and snapping must not depend on the target's instructions: no fused multiply-add behind the source's back.
+  # lrint without errno is one instruction.
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic $<$<BOOL:${HALFSPACE_WERROR}>:-Werror>)
+endfunction()

@@ -1,0 +1,86 @@
+/// Depth formats and the codes that stand for depth values on a link and in a surface.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace halfspace {
+
+/// Numbered as in the PTF1 file format.
+enum class DepthFormat : std::uint32_t { kNone = 0, kUnorm16 = 1, kUnorm24 = 2, kUnorm32 = 3, kFloat32 = 4 };
+
+/// Depth comparison "incoming OP stored", numbered as in Vulkan.
+enum class DepthFunc : std::uint32_t { kNever, kLess, kEqual, kLequal, kGreater, kNotEqual, kGequal, kAlways };
+
+/// Vertex depths of unorm surfaces carry this many bits: the stored code and, below it, a fraction.
+inline constexpr int kVertexDepthBits = 31;
+
+/// Bits of a stored unorm code; 0 for float32 and none.
+constexpr int unorm_bits(DepthFormat format) {
+  return format == DepthFormat::kUnorm16 ? 16 : format == DepthFormat::kUnorm24 ? 24 : 0;
+}
+
+/// Bits of a vertex depth below the unit of the stored code.
+constexpr int vertex_depth_fraction(DepthFormat format) { return kVertexDepthBits - unorm_bits(format); }
+
+/// Largest code of a unorm surface: depth 1.
+constexpr std::uint32_t max_unorm_code(DepthFormat format) { return (1u << unorm_bits(format)) - 1; }
+
+/// The depth of a vertex as it enters setup, from a depth in [0, 1]: for unorm surfaces the code scaled by
+/// 2^vertex_depth_fraction, rounded to nearest even; for float32 the bits of the nearest float.
+inline std::uint32_t vertex_depth_code(DepthFormat format, double depth) {
+  if (format == DepthFormat::kFloat32) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(depth) + 0.0f);  // + 0 turns -0 into 0
+  }
+  const double one = std::ldexp(static_cast<double>(max_unorm_code(format)), vertex_depth_fraction(format));
+  return static_cast<std::uint32_t>(std::nearbyint(depth * one));
+}
+
+/// The stored code nearest to a vertex depth, halves upwards.
+constexpr std::uint32_t stored_code(DepthFormat format, std::uint32_t vertex_depth) {
+  if (format == DepthFormat::kFloat32) {
+    return vertex_depth;
+  }
+  const int fraction = vertex_depth_fraction(format);
+  return (vertex_depth + (1u << (fraction - 1))) >> fraction;
+}
+
+/// The stored code of a cleared depth; values outside [0, 1] are clamped as the graphics APIs ask.
+inline std::uint32_t clear_code(DepthFormat format, float depth) {
+  return stored_code(format, vertex_depth_code(format, std::clamp(static_cast<double>(depth), 0.0, 1.0)));
+}
+
+/// A stored code as a depth in [0, 1].
+inline float depth_of_code(DepthFormat format, std::uint32_t code) {
+  if (format == DepthFormat::kFloat32) {
+    return std::bit_cast<float>(code);
+  }
+  return static_cast<float>(static_cast<double>(code) / max_unorm_code(format));
+}
+
+/// Codes of every format compare as unsigned integers, the bits of non-negative floats included.
+constexpr bool depth_passes(DepthFunc func, std::uint32_t incoming, std::uint32_t stored) {
+  switch (func) {
+    case DepthFunc::kNever:
+      return false;
+    case DepthFunc::kLess:
+      return incoming < stored;
+    case DepthFunc::kEqual:
+      return incoming == stored;
+    case DepthFunc::kLequal:
+      return incoming <= stored;
+    case DepthFunc::kGreater:
+      return incoming > stored;
+    case DepthFunc::kNotEqual:
+      return incoming != stored;
+    case DepthFunc::kGequal:
+      return incoming >= stored;
+    case DepthFunc::kAlways:
+      return true;
+  }
+  return false;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,60 @@
+#include "halfspace/reference/window.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfspace::reference {
+
+WindowVertex to_window(const Homogeneous& v, const Command& draw) {
+  const double range_near = draw.depth_range.x;
+  const double range_far = draw.depth_range.y;
+  const double ndc_z = v.z / v.w;
+  WindowVertex result;
+  result.x = draw.viewport.x + (v.x / v.w + 1) * draw.viewport.z / 2;
+  result.y = draw.viewport.y + (v.y / v.w + 1) * draw.viewport.w / 2;
+  result.z = draw.has(Flag::kNdcZMinusOneToOne)
+                 ? (range_far - range_near) / 2 * ndc_z + (range_far + range_near) / 2
+                 : range_near + ndc_z * (range_far - range_near);
+  return result;
+}
+
+GridPoint snap(const WindowVertex& v, int subpixel_bits) {
+  // nearbyint rounds ties to even in the default rounding mode, which nothing here changes.
+  const double scale = std::ldexp(1.0, subpixel_bits);
+  return {static_cast<std::int64_t>(std::nearbyint(v.x * scale)),
+          static_cast<std::int64_t>(std::nearbyint(v.y * scale))};
+}
+
+DepthPlane depth_plane(const WindowTriangle& t) {
+  // Cramer's rule for z - z0 = dzdx (x - x0) + dzdy (y - y0) at the other two vertices.
+  const double x1 = t[1].x - t[0].x;
+  const double y1 = t[1].y - t[0].y;
+  const double z1 = t[1].z - t[0].z;
+  const double x2 = t[2].x - t[0].x;
+  const double y2 = t[2].y - t[0].y;
+  const double z2 = t[2].z - t[0].z;
+  const double area = x1 * y2 - x2 * y1;
+  if (area == 0) return {t[0].x, t[0].y, t[0].z, 0, 0};
+  return {t[0].x, t[0].y, t[0].z, (z1 * y2 - z2 * y1) / area, (x1 * z2 - x2 * z1) / area};
+}
+
+double polygon_offset(const DepthPlane& plane, const WindowTriangle& t, const Command& draw,
+                      Storage storage) {
+  if (!draw.has(Flag::kPolygonOffset)) return 0;
+  const double slope = std::max(std::abs(plane.dzdx), std::abs(plane.dzdy));
+  double step = 0;
+  if (storage == Storage::kFloat32) {
+    // 2^(e - 23), with e the exponent of the largest depth in the triangle; float32 has 23 bits after the
+    // point.
+    const double largest = std::max({std::abs(t[0].z), std::abs(t[1].z), std::abs(t[2].z)});
+    if (largest > 0) step = std::ldexp(1.0, std::ilogb(largest) - 23);
+  } else {
+    step = std::ldexp(1.0, -unorm_bits(storage));
+  }
+  const double offset = slope * draw.offset_factor + step * draw.offset_units;
+  if (draw.offset_clamp > 0) return std::min(offset, static_cast<double>(draw.offset_clamp));
+  if (draw.offset_clamp < 0) return std::max(offset, static_cast<double>(draw.offset_clamp));
+  return offset;
+}
+
+}  // namespace halfspace::reference

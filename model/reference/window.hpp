@@ -1,0 +1,50 @@
+/// Clip space to window coordinates and to the sub-pixel grid, and the depth plane of a triangle; double
+/// precision.
+#pragma once
+
+#include <array>
+
+#include "halfspace/reference/clip.hpp"
+#include "halfspace/reference/depth_code.hpp"
+#include "halfspace/reference/exact_triangle.hpp"
+#include "halfspace/scene/frame.hpp"
+
+namespace halfspace::reference {
+
+/// A vertex in window coordinates: pixels, y down, depth in the units of the depth range.
+struct WindowVertex {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
+
+using WindowTriangle = std::array<WindowVertex, 3>;
+
+/// The perspective division, the viewport and the depth range of `draw`. v.w must be positive.
+[[nodiscard]] WindowVertex to_window(const Homogeneous& v, const Command& draw);
+
+/// The nearest point of the grid of 1/2^subpixel_bits pixel, ties to even.
+[[nodiscard]] GridPoint snap(const WindowVertex& v, int subpixel_bits);
+
+/// Depth as a linear function of the window position: z + dzdx * (x - x0) + dzdy * (y - y0).
+struct DepthPlane {
+  double x0 = 0;
+  double y0 = 0;
+  double z = 0;
+  double dzdx = 0;
+  double dzdy = 0;
+
+  [[nodiscard]] double at(double x, double y) const { return z + dzdx * (x - x0) + dzdy * (y - y0); }
+};
+
+/// The plane through the three vertices as they were before snapping. Where these lie on one line (they can,
+/// when only the snapping made an area), the plane is level, at the depth of the first vertex.
+[[nodiscard]] DepthPlane depth_plane(const WindowTriangle& t);
+
+/// The polygon offset of `draw` (Vulkan 1.3, "Depth Bias"; OpenGL 4.6, 14.6.5): m * factor + r * units,
+/// clamped, where m is the larger slope and r the smallest step of depth that the format resolves at this
+/// triangle.
+[[nodiscard]] double polygon_offset(const DepthPlane& plane, const WindowTriangle& t, const Command& draw,
+                                    Storage storage);
+
+}  // namespace halfspace::reference

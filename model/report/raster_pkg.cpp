@@ -1,0 +1,136 @@
+#include "halfspace/report/raster_pkg.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/packets.hpp"
+
+namespace halfspace {
+namespace {
+
+struct WidthEntry {
+  std::string_view name;
+  std::string_view formula;
+  std::string_view meaning;
+  int Widths::*member;
+};
+
+#define W(name, formula, meaning) WidthEntry{#name, #formula, meaning, &Widths::name},
+constexpr std::array kWidthTable = {HALFSPACE_WIDTHS(W)};
+#undef W
+
+std::string_view name_of(int Widths::*member) {
+  const auto* entry = std::ranges::find(kWidthTable, member, &WidthEntry::member);
+  if (entry == kWidthTable.end()) {
+    throw std::logic_error("raster_pkg: a packet field's width is not in HALFSPACE_WIDTHS");
+  }
+  return entry->name;
+}
+
+/// "TileCoordBits" -> "tile_coord_t".
+std::string type_name(std::string_view width_name) {
+  if (width_name.ends_with("Bits")) {
+    width_name.remove_suffix(4);
+  }
+  std::string text;
+  for (const char c : width_name) {
+    if (std::isupper(static_cast<unsigned char>(c)) != 0 && !text.empty()) {
+      text += '_';
+    }
+    text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return text + "_t";
+}
+
+/// C++ field names that SystemVerilog reserves get a trailing underscore there.
+std::string field_name(std::string_view name) {
+  constexpr std::array<std::string_view, 12> kReserved = {"bit",    "cell",  "config",   "context", "edge",  "event",
+                                                          "global", "local", "priority", "table",   "tagged", "unique"};
+  return std::string(name) + (std::ranges::find(kReserved, name) != kReserved.end() ? "_" : "");
+}
+
+/// Elements of an array field; 0 for a field that is one number. A TileMask is one number of MaskBits.
+template <class Field>
+constexpr std::size_t kElements = 0;
+template <class Element, std::size_t N>
+constexpr std::size_t kElements<std::array<Element, N>> = N;
+
+/// An element of a packed array is signed only when its type has a name, so each width of a signed field has one.
+template <class Packet>
+void add_signed_types(std::vector<int Widths::*>& types) {
+  Packet::fields([&](const char*, auto, int Widths::*width, Sign sign) {
+    if (sign == Sign::kSigned && std::ranges::find(types, width) == types.end()) {
+      types.push_back(width);
+    }
+  });
+}
+
+template <class Packet>
+std::string packed_struct(std::string_view type, std::string_view meaning) {
+  std::string text = "\n  // " + std::string(meaning) + "\n  typedef struct packed {\n";
+  Packet::fields([&](const char* name, auto member, int Widths::*width, Sign sign) {
+    using Field = std::remove_cvref_t<decltype(std::declval<Packet>().*member)>;
+    const std::string range = "[" + std::string(name_of(width)) + "-1:0]";
+    text += "    " + (sign == Sign::kSigned ? type_name(name_of(width)) : std::string("logic"));
+    if constexpr (kElements<Field> != 0) {
+      text += " [" + std::to_string(kElements<Field> - 1) + ":0]";
+    }
+    text += (sign == Sign::kSigned ? "" : " " + range) + " " + field_name(name) + ";\n";
+  });
+  return text + "  } " + std::string(type) + ";\n";
+}
+
+}  // namespace
+
+std::string raster_pkg() {
+  std::string text =
+      R"(// Widths and packets of the links between the units, for every configuration.
+//
+// Printed by the target print_raster_pkg from model/numerics/widths.hpp and model/units/packets.hpp: change those
+// and print this file again. A configuration is chosen by -DHALFSPACE_TILE_SIZE=4|8|16 and
+// -DHALFSPACE_SUB_PIXEL_BITS=4..8.
+
+`ifndef HALFSPACE_TILE_SIZE
+`define HALFSPACE_TILE_SIZE 8
+`endif
+`ifndef HALFSPACE_SUB_PIXEL_BITS
+`define HALFSPACE_SUB_PIXEL_BITS 8
+`endif
+
+package raster_pkg;
+
+  parameter int unsigned SubPixelBits = `HALFSPACE_SUB_PIXEL_BITS;
+  parameter int unsigned TileSize = `HALFSPACE_TILE_SIZE;
+
+)";
+  for (const WidthEntry& entry : kWidthTable) {
+    text += "  // " + std::string(entry.meaning) + "\n";
+    text += "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
+  }
+  std::vector<int Widths::*> types;
+  add_signed_types<TileJob>(types);
+  add_signed_types<Coverage>(types);
+  text += "\n";
+  for (int Widths::*width : types) {
+    const std::string name(name_of(width));
+    text += "  typedef logic signed [" + name + "-1:0] " + type_name(name) + ";\n";
+  }
+  text += packed_struct<TileJob>("tile_job_t", "tile_walker -> edge_evaluator");
+  text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
+  text += R"(
+endpackage : raster_pkg
+
+`undef HALFSPACE_TILE_SIZE
+`undef HALFSPACE_SUB_PIXEL_BITS
+)";
+  return text;
+}
+
+}  // namespace halfspace

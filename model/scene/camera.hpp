@@ -1,0 +1,31 @@
+/// A camera, and the frame it makes of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string_view>
+
+#include "halfspace/scene/frame.hpp"
+#include "halfspace/scene/mesh.hpp"
+
+namespace halfspace {
+
+/// A perspective camera with y up. Where eye or at is not given it is chosen so that the whole mesh is seen.
+struct Camera {
+  std::optional<glm::vec3> eye;  ///< position; default: from the front right, a little above
+  std::optional<glm::vec3> at;   ///< the point looked at; default: the middle of the mesh's bounding box
+  float fov_degrees = 60;        ///< vertical angle of view, above 0 and below 180
+  std::uint32_t width = 1920;    ///< of the target, 1 to kMaxTargetSize pixels
+  std::uint32_t height = 1080;
+};
+
+/// One target with a 24-bit depth surface 0; a clear of colour and depth (to 1), then one draw for each part
+/// of the mesh: depth test LESS with write, no culling, clip volume -w <= z <= w, window y down. Near and far
+/// enclose the mesh. Positions that are not finite stay in (their triangles are dropped when drawn) but do
+/// not count for the bounding box. Throws InputError when the field of view or a size is out of range, eye or
+/// at is not finite or both are the same, no position of the mesh is finite, or the mesh is too far away or
+/// too large for floats.
+[[nodiscard]] Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name);
+
+}  // namespace halfspace

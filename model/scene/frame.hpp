@@ -1,0 +1,95 @@
+/// A frame: the draws and clears of one frame of a program, in order, with the state that decides coverage and
+/// depth, and clip-space positions. It mirrors the PTF1 file format (docs/guides/frames.md); a mesh becomes one too.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "halfspace/numerics/depth.hpp"
+
+namespace halfspace {
+
+enum class CommandKind : std::uint32_t { kDraw = 1, kClear = 2 };
+
+/// Bits of Command::flags, as in the file.
+enum class Flag : std::uint32_t {
+  kDepthTest = 1u << 0,
+  kDepthWrite = 1u << 1,
+  kDepthClamp = 1u << 2,
+  kNdcZMinusOneToOne = 1u << 3,
+  kFrontPositiveArea = 1u << 4,
+  kCullFront = 1u << 5,
+  kCullBack = 1u << 6,
+  kBlend = 1u << 7,
+  kShaderDiscards = 1u << 8,
+  kShaderWritesDepth = 1u << 9,
+  kStencilTest = 1u << 10,
+  kColorWrite = 1u << 11,
+  kAlphaToCoverage = 1u << 12,
+  kNotFilled = 1u << 13,
+  kEarlyTestsForced = 1u << 14,
+  kPolygonOffset = 1u << 15,
+  kShaderSideEffects = 1u << 16,
+  kClearColor = 1u << 17,
+  kClearDepth = 1u << 18,
+  kClearStencil = 1u << 19,
+  kBottomLeftRule = 1u << 20,
+};
+
+inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFFu;
+inline constexpr std::uint32_t kMaxTargetSize = 16384;  ///< pixels on a side
+
+/// A render target. Targets with the same depth_surface share one depth buffer.
+struct Target {
+  std::uint32_t width = 0;   ///< 1 to kMaxTargetSize pixels
+  std::uint32_t height = 0;
+  std::uint32_t samples = 1;
+  DepthFormat depth_format = DepthFormat::kNone;
+  std::uint32_t color_count = 0;
+  bool presented = false;  ///< this is the image that was shown
+  std::uint32_t depth_surface = kNoSurface;
+};
+
+/// x, y of the top left pixel, width and height; may reach beyond the target.
+struct Scissor {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t width = 1 << 24;
+  std::int32_t height = 1 << 24;
+};
+
+/// A draw or a clear, with its state.
+struct Command {
+  CommandKind kind = CommandKind::kDraw;
+  std::uint32_t source_event = 0;
+  std::uint32_t target = 0;
+  std::uint32_t flags = 0;
+  DepthFunc depth_func = DepthFunc::kAlways;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;  ///< a multiple of 3
+  std::uint32_t first_vertex = 0;
+  std::uint32_t vertex_count = 0;
+  glm::vec4 viewport{0};     ///< x, y, width, height in pixels; the height is negative for y-up programs
+  glm::vec2 depth_range{0, 1};  ///< near, far
+  float clear_depth = 1;
+  float offset_factor = 0;
+  float offset_units = 0;
+  float offset_clamp = 0;
+  Scissor scissor;  ///< of a clear: the cleared rectangle
+
+  [[nodiscard]] bool has(Flag flag) const { return (flags & static_cast<std::uint32_t>(flag)) != 0; }
+};
+
+struct Frame {
+  std::string name;
+  std::vector<Target> targets;
+  std::vector<Command> commands;
+  std::vector<glm::vec4> vertices;     ///< clip space
+  std::vector<std::uint32_t> indices;  ///< relative to the draw's first_vertex, three a triangle
+  std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
+};
+
+}  // namespace halfspace

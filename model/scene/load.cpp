@@ -1,0 +1,35 @@
+#include "halfspace/scene/load.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/byte_source.hpp"
+#include "halfspace/scene/mesh.hpp"
+#include "halfspace/scene/ptf.hpp"
+
+namespace halfspace {
+namespace {
+
+bool is_frame(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".ptf") || name.ends_with(".ptf.gz") || name.ends_with(".ptf.xz");
+}
+
+}  // namespace
+
+Frame load(const std::filesystem::path& path, const Camera& camera) {
+  if (is_frame(path)) return read_ptf(path);
+  if (is_mesh(path)) {
+    Frame frame = frame_from_mesh(read_mesh(path), camera, display_name(path));
+    frame.name = display_name(path.stem());
+    return frame;
+  }
+  throw InputError(
+      fmt::format("{}: extension is \"{}\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb",
+                  display_name(path), display_name(path.extension())));
+}
+
+}  // namespace halfspace

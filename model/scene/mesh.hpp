@@ -1,0 +1,38 @@
+/// Triangle meshes, from OBJ, PLY and glTF files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace halfspace {
+
+inline constexpr std::uint64_t kMaxMeshVertices = std::uint64_t{1} << 25;
+inline constexpr std::uint64_t kMaxMeshTriangles = std::uint64_t{1} << 25;
+
+/// A run of a mesh's indices: one material or primitive, drawn by one draw.
+struct MeshPart {
+  std::string name;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;  ///< a multiple of 3, above 0
+};
+
+/// Positions in the file's own units, y up; three indices a triangle; the parts cover the indices in order.
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> indices;  ///< below positions.size()
+  std::vector<MeshPart> parts;
+  std::uint64_t skipped = 0;  ///< points and lines of the file, which are not drawn
+};
+
+/// The mesh in an .obj, .ply, .gltf or .glb file (by extension; it may be packed by gzip or xz all the same).
+/// Polygons are triangulated; a glTF scene's instances are written out. Materials, images and all vertex
+/// attributes but the position are passed over. No material or image file is opened; buffers of a glTF file
+/// are only from its own folder or below. Throws InputError when the file cannot be read, is damaged or
+/// contradicts itself, has no triangle, or has more than kMaxMeshVertices positions or kMaxMeshTriangles
+/// triangles.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace halfspace

@@ -1,0 +1,112 @@
+/// What the front end and the units count. One list a unit declares, names and explains its counters.
+#pragma once
+
+#include <cstdint>
+
+namespace halfspace {
+
+// clang-format off
+#define HALFSPACE_FRONT_END_COUNTERS(C)                                                   \
+  C(triangles,         "taken from the draw")                                             \
+  C(non_finite,        "dropped: a position is NaN or infinite")                          \
+  C(clipped_away,      "dropped: nothing is left inside the clip volume")                 \
+  C(degenerate,        "dropped: w is not positive after clipping")                       \
+  C(clipped,           "cut by a plane of the clip volume or the guard band")             \
+  C(depth_split,       "bent where depth clamp or polygon offset leaves the depth range") \
+  C(emitted,           "given to setup; cutting makes several of one")
+
+#define HALFSPACE_SETUP_COUNTERS(C)                                          \
+  C(triangles,         "taken")                                              \
+  C(zero_area,         "dropped: no area on the sub-pixel grid")             \
+  C(culled,            "dropped: faces away")                                \
+  C(no_sample,         "dropped: the bounding box holds no pixel centre")    \
+  C(outside,           "dropped: the bounding box misses scissor or target") \
+  C(drawn,             "given to the walker")
+
+#define HALFSPACE_TILE_WALKER_COUNTERS(C)                                             \
+  C(blocks_rejected,   "blocks outside one edge: none of their tiles is looked at")   \
+  C(blocks_accepted,   "blocks inside all edges: their tiles need no test")           \
+  C(blocks_partial,    "blocks whose tiles are decided one by one")                   \
+  C(tiles_rejected,    "tiles outside one edge")                                      \
+  C(tiles_accepted,    "tiles decided as covered whole")                              \
+  C(tiles_partial,     "tiles left to the edge evaluator")                            \
+  C(tiles_by_block,    "tiles covered whole because their block was")
+
+#define HALFSPACE_EDGE_EVALUATOR_COUNTERS(C)                                \
+  C(tiles_skipped,     "covered whole: nothing to evaluate")                \
+  C(tiles,             "evaluated")                                         \
+  C(tiles_empty,       "evaluated, and no sample was covered")              \
+  C(edges,             "edges evaluated")                                   \
+  C(edges_skipped,     "edges of evaluated tiles skipped by an accept bit")
+
+#define HALFSPACE_QUAD_GENERATOR_COUNTERS(C)                     \
+  C(tiles,             "tiles with a covered sample")            \
+  C(quads,             "quads with a covered sample")            \
+  C(quads_full,        "quads with all four samples covered")    \
+  C(quads_empty,       "quads of those tiles squeezed out")      \
+  C(fragments,         "covered samples")                        \
+  C(helpers,           "samples of the quads that are not covered")
+
+#define HALFSPACE_EARLY_Z_COUNTERS(C)                                         \
+  C(tested,            "fragments whose depth was interpolated and compared") \
+  C(untested,          "fragments that passed because the test is off")       \
+  C(survivors,         "fragments that passed")                               \
+  C(written,           "fragments that wrote their depth")                    \
+  C(tiles_killed,      "tiles none of whose fragments passed")
+// clang-format on
+
+/// Defines struct NAME of 64-bit counters, with fields(visit) calling visit(name, help, member) for each, and +=.
+#define HALFSPACE_COUNTER_STRUCT(NAME, LIST)                             \
+  struct NAME {                                                          \
+    LIST(HALFSPACE_COUNTER_MEMBER)                                       \
+    template <class Visit>                                               \
+    static void fields(Visit&& visit) {                                  \
+      using Self = NAME;                                                 \
+      LIST(HALFSPACE_COUNTER_VISIT)                                      \
+    }                                                                    \
+    NAME& operator+=(const NAME& other) {                                \
+      fields([&](auto, auto, auto member) { this->*member += other.*member; }); \
+      return *this;                                                      \
+    }                                                                    \
+  };
+#define HALFSPACE_COUNTER_MEMBER(name, help) std::uint64_t name = 0;
+#define HALFSPACE_COUNTER_VISIT(name, help) visit(#name, help, &Self::name);
+
+HALFSPACE_COUNTER_STRUCT(FrontEndCounters, HALFSPACE_FRONT_END_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(SetupCounters, HALFSPACE_SETUP_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(TileWalkerCounters, HALFSPACE_TILE_WALKER_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(EdgeEvaluatorCounters, HALFSPACE_EDGE_EVALUATOR_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(QuadGeneratorCounters, HALFSPACE_QUAD_GENERATOR_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(EarlyZCounters, HALFSPACE_EARLY_Z_COUNTERS)
+
+#undef HALFSPACE_COUNTER_MEMBER
+#undef HALFSPACE_COUNTER_VISIT
+#undef HALFSPACE_COUNTER_STRUCT
+
+/// All counters of a draw, a surface or a frame.
+struct Counters {
+  FrontEndCounters front_end;
+  SetupCounters setup;
+  TileWalkerCounters tile_walker;
+  EdgeEvaluatorCounters edge_evaluator;
+  QuadGeneratorCounters quad_generator;
+  EarlyZCounters early_z;
+
+  /// Calls visit(unit, member) for each unit.
+  template <class Visit>
+  static void units(Visit&& visit) {
+    visit("front_end", &Counters::front_end);
+    visit("setup", &Counters::setup);
+    visit("tile_walker", &Counters::tile_walker);
+    visit("edge_evaluator", &Counters::edge_evaluator);
+    visit("quad_generator", &Counters::quad_generator);
+    visit("early_z", &Counters::early_z);
+  }
+
+  Counters& operator+=(const Counters& other) {
+    units([&](auto, auto unit) { this->*unit += other.*unit; });
+    return *this;
+  }
+};
+
+}  // namespace halfspace

@@ -1,0 +1,41 @@
+/// edge_evaluator: from a tile job to the coverage mask of the tile.
+///
+/// Coverage is exact (docs/numerics.md): a sample is inside when all three edge values are >= 0, the fill rule
+/// being folded into them. An edge whose accept bit is set is not looked at.
+#pragma once
+
+#include "halfspace/numerics/edge.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/tile_mask.hpp"
+
+namespace halfspace {
+
+/// The samples of a tile that are inside one edge, given its saturated value at the tile origin.
+template <int TileSize>
+constexpr TileMask half_plane(std::int32_t local_edge, std::int32_t a, std::int32_t b) {
+  TileMask mask;
+  for (int y = 0; y < TileSize; ++y) {
+    std::uint32_t row = 0;
+    for (int x = 0; x < TileSize; ++x) {
+      row |= static_cast<std::uint32_t>(local_edge + x * a + y * b >= 0) << x;
+    }
+    set_row<TileSize>(mask, y, row);
+  }
+  return mask;
+}
+
+/// `job` must satisfy the widths of its packet for `sub_pixel_bits` (4 to 8).
+template <int TileSize>
+constexpr TileMask edge_evaluator(const TileJob& job, int sub_pixel_bits) {
+  TileMask mask = rect_mask<TileSize>(job.x_first, job.x_last, job.y_first, job.y_last);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((job.accept >> i & 1) != 0) {
+      continue;
+    }
+    const std::int32_t local = saturate_local_edge<TileSize>(drop_sub_pixel(job.e[i], sub_pixel_bits));
+    mask &= half_plane<TileSize>(local, job.a[i], job.b[i]);
+  }
+  return mask;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,130 @@
+/// The packets that cross the links between the units.
+///
+/// A packet that also exists in SystemVerilog lists its fields once, in fields(), most significant first: the
+/// package, the bit packing of the benches and the first-difference reports are all derived from that list.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "halfspace/numerics/widths.hpp"
+
+namespace halfspace {
+
+enum class Sign : std::uint8_t { kUnsigned, kSigned };
+
+/// A vertex as setup takes it. z is a fixed-point or float32 code, see numerics/depth.hpp.
+struct ScreenVertex {
+  std::int32_t x = 0;   ///< window coordinate in 1/2^SubPixelBits pixel, y down
+  std::int32_t y = 0;
+  std::uint32_t z = 0;
+};
+
+/// front end -> setup: a triangle on the sub-pixel grid, in API vertex order.
+struct ScreenTriangle {
+  std::array<ScreenVertex, 3> v;
+  std::uint32_t triangle = 0;  ///< index of the source triangle in its draw; clipping may repeat it
+};
+
+/// One edge equation: inside is E >= 0, because the fill rule is folded into c.
+struct Edge {
+  std::int32_t a = 0;  ///< y_i - y_j: change of E for 1/2^SubPixelBits pixel in x
+  std::int32_t b = 0;  ///< x_j - x_i: the same in y
+  std::int64_t c = 0;  ///< E at the centre of pixel (0, 0), less 1 unless the edge owns its samples
+};
+
+/// What early_z needs to know of a triangle to interpolate depth; see units/depth_interpolator.hpp. Vertex i is
+/// opposite to edge i, so E_i / 2A is its weight.
+struct DepthEquation {
+  std::array<std::uint32_t, 3> z{};    ///< vertex depths
+  std::array<std::uint8_t, 3> bias{};  ///< 1 where the fill rule lowered c of the edge
+  std::int64_t area2 = 0;              ///< 2A, the sum of the three unbiased E
+  std::uint32_t reciprocal = 0;        ///< barycentric: (2^63 - 1) / (2A scaled to 32 bits)
+  std::int8_t shift = 0;               ///< barycentric: E >> shift is on the scale of the 32-bit 2A
+  std::int64_t origin = 0;             ///< plane: z at the centre of pixel (x, y), with kPlaneFraction more bits
+  std::int64_t dx = 0;                 ///< plane: change of z for one pixel in x, on the same scale
+  std::int64_t dy = 0;
+  std::int32_t x = 0;                  ///< plane: the pixel that holds vertex 0
+  std::int32_t y = 0;
+  std::uint32_t min_code = 0;          ///< stored codes of the nearest and the farthest vertex: no sample leaves them
+  std::uint32_t max_code = 0;
+};
+
+/// Inclusive pixel rectangle; empty when a last is smaller than its first.
+struct PixelRect {
+  std::int32_t x_first = 0;
+  std::int32_t y_first = 0;
+  std::int32_t x_last = -1;
+  std::int32_t y_last = -1;
+  [[nodiscard]] bool empty() const { return x_last < x_first || y_last < y_first; }
+};
+
+/// setup -> tile_walker.
+struct SetupTriangle {
+  std::array<Edge, 3> edge;
+  PixelRect bounds;  ///< pixels whose centres the bounding box, the scissor and the target all hold
+  DepthEquation depth;
+  std::uint32_t triangle = 0;
+};
+
+/// tile_walker -> edge_evaluator: a tile that a triangle may touch.
+struct TileJob {
+  std::uint8_t context = 0;            ///< slot of the triangle's depth equation and draw state
+  std::uint16_t tile_x = 0;            ///< in tiles
+  std::uint16_t tile_y = 0;
+  std::array<std::int64_t, 3> e{};     ///< E at the centre of the tile's top left pixel, fill rule folded in
+  std::array<std::int32_t, 3> a{};
+  std::array<std::int32_t, 3> b{};
+  std::uint8_t accept = 0;             ///< bit i: every sample of the tile is inside edge i
+  std::uint8_t x_first = 0;            ///< columns and rows inside the bounds, inclusive, counted in the tile
+  std::uint8_t x_last = 0;
+  std::uint8_t y_first = 0;
+  std::uint8_t y_last = 0;
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    visit("context", &TileJob::context, &Widths::ContextBits, Sign::kUnsigned);
+    visit("tile_x", &TileJob::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_y", &TileJob::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("e", &TileJob::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("a", &TileJob::a, &Widths::StepBits, Sign::kSigned);
+    visit("b", &TileJob::b, &Widths::StepBits, Sign::kSigned);
+    visit("accept", &TileJob::accept, &Widths::EdgeCount, Sign::kUnsigned);
+    visit("x_first", &TileJob::x_first, &Widths::TileLog2, Sign::kUnsigned);
+    visit("x_last", &TileJob::x_last, &Widths::TileLog2, Sign::kUnsigned);
+    visit("y_first", &TileJob::y_first, &Widths::TileLog2, Sign::kUnsigned);
+    visit("y_last", &TileJob::y_last, &Widths::TileLog2, Sign::kUnsigned);
+  }
+};
+
+/// Which samples of a tile are covered: bit y * TileSize + x, in as many words as the tile needs.
+struct TileMask {
+  std::array<std::uint64_t, 4> word{};
+  friend bool operator==(const TileMask&, const TileMask&) = default;
+};
+
+/// edge_evaluator -> quad_generator.
+struct Coverage {
+  std::uint8_t context = 0;
+  std::uint16_t tile_x = 0;
+  std::uint16_t tile_y = 0;
+  std::array<std::int64_t, 2> e{};  ///< E of edges 1 and 2 at the tile origin: the depth inputs
+  TileMask mask;
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    visit("context", &Coverage::context, &Widths::ContextBits, Sign::kUnsigned);
+    visit("tile_x", &Coverage::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_y", &Coverage::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("e", &Coverage::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("mask", &Coverage::mask, &Widths::MaskBits, Sign::kUnsigned);
+  }
+};
+
+/// quad_generator -> early_z: the 2x2 quads of one tile that hold a covered sample, in row order.
+struct QuadBurst {
+  Coverage coverage;
+  TileMask quads;  ///< the bit of the top left pixel of every quad that is not empty
+};
+
+}  // namespace halfspace

@@ -1,0 +1,94 @@
+#include "halfspace/units/setup.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace halfspace {
+namespace {
+
+std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v) {
+  const std::int64_t abx = v[1].x - v[0].x;
+  const std::int64_t aby = v[1].y - v[0].y;
+  const std::int64_t acx = v[2].x - v[0].x;
+  const std::int64_t acy = v[2].y - v[0].y;
+  return abx * acy - acx * aby;
+}
+
+/// Starts the cycle at the topmost, then leftmost vertex, so that equal triangles give equal equations.
+void rotate_to_first(std::array<ScreenVertex, 3>& v) {
+  const auto above = [](const ScreenVertex& l, const ScreenVertex& r) { return std::tie(l.y, l.x) < std::tie(r.y, r.x); };
+  std::rotate(v.begin(), std::min_element(v.begin(), v.end(), above), v.end());
+}
+
+/// The pixels whose centres lie in the closed bounding box of the triangle.
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits) {
+  const auto [x_min, x_max] = std::minmax({v[0].x, v[1].x, v[2].x});
+  const auto [y_min, y_max] = std::minmax({v[0].y, v[1].y, v[2].y});
+  const std::int32_t half = 1 << (sub_pixel_bits - 1);
+  // centre of pixel p is p * 2^s + half: first = ceil((min - half) / 2^s), last = floor((max - half) / 2^s)
+  return {.x_first = (x_min + half - 1) >> sub_pixel_bits,
+          .y_first = (y_min + half - 1) >> sub_pixel_bits,
+          .x_last = (x_max - half) >> sub_pixel_bits,
+          .y_last = (y_max - half) >> sub_pixel_bits};
+}
+
+PixelRect intersect(const PixelRect& l, const PixelRect& r) {
+  return {.x_first = std::max(l.x_first, r.x_first),
+          .y_first = std::max(l.y_first, r.y_first),
+          .x_last = std::min(l.x_last, r.x_last),
+          .y_last = std::min(l.y_last, r.y_last)};
+}
+
+/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge has
+/// a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
+bool owns_its_samples(const Edge& edge, bool bottom_left_rule) {
+  return edge.a > 0 || (edge.a == 0 && (bottom_left_rule ? edge.b < 0 : edge.b > 0));
+}
+
+}  // namespace
+
+SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out) {
+  std::array<ScreenVertex, 3> v = in.v;
+  std::int64_t area2 = twice_signed_area(v);
+  if (area2 == 0) {
+    return SetupVerdict::kZeroArea;
+  }
+  const bool front = (area2 > 0) == state.front_positive_area;
+  if (front ? state.cull_front : state.cull_back) {
+    return SetupVerdict::kCulled;
+  }
+  const PixelRect box = sample_bounds(v, state.sub_pixel_bits);
+  if (box.empty()) {
+    return SetupVerdict::kNoSample;
+  }
+  out.bounds = intersect(box, state.bounds);
+  if (out.bounds.empty()) {
+    return SetupVerdict::kOutside;
+  }
+
+  if (area2 < 0) {
+    std::swap(v[1], v[2]);
+    area2 = -area2;
+  }
+  rotate_to_first(v);
+
+  const std::int64_t centre = std::int64_t{1} << (state.sub_pixel_bits - 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ScreenVertex& from = v[(i + 1) % 3];
+    const ScreenVertex& to = v[(i + 2) % 3];
+    Edge& edge = out.edge[i];
+    edge.a = from.y - to.y;
+    edge.b = to.x - from.x;
+    const bool owns = owns_its_samples(edge, state.bottom_left_rule);
+    edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y) - (owns ? 0 : 1);
+    out.depth.bias[i] = owns ? 0 : 1;
+  }
+  out.triangle = in.triangle;
+  if (state.depth_format != DepthFormat::kNone) {
+    make_depth_equation(v, out.edge, area2, state.sub_pixel_bits, state.depth_format, state.interpolator, out.depth);
+  }
+  return SetupVerdict::kDrawn;
+}
+
+}  // namespace halfspace

@@ -1,0 +1,37 @@
+/// setup: from a snapped triangle to edge equations, bounds and a depth equation, or to the reason it is dropped.
+///
+/// Edge functions with the top-left rule folded into the constant: J. Pineda, "A Parallel Algorithm for Polygon
+/// Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification, section 3.4.2.1.
+#pragma once
+
+#include "halfspace/numerics/depth.hpp"
+#include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/packets.hpp"
+
+namespace halfspace {
+
+/// The state of a draw that setup looks at.
+struct SetupState {
+  int sub_pixel_bits = 8;  ///< 4 to 8
+  bool front_positive_area = false;
+  bool cull_front = false;
+  bool cull_back = false;
+  bool bottom_left_rule = false;
+  PixelRect bounds;                                ///< scissor and target, in pixels
+  DepthFormat depth_format = DepthFormat::kNone;   ///< none: no depth equation is made
+  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
+};
+
+enum class SetupVerdict : std::uint8_t {
+  kDrawn,
+  kZeroArea,
+  kCulled,    ///< faces away
+  kNoSample,  ///< its bounding box holds no pixel centre
+  kOutside,   ///< its bounding box misses the scissor or the target
+};
+
+/// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed bits).
+/// Neither the order of the vertices nor which one comes first changes what is drawn or its depth.
+SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out);
+
+}  // namespace halfspace
