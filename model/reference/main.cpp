@@ -1,12 +1,12 @@
 /// halfspace_reference FRAME [DIRECTORY]: counts what the textbook rasterizer does with a frame, one line for
 /// each depth surface and each way to take shaders that may discard; with a directory, its depth goes there
 /// as well.
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/rasterizer.hpp"
@@ -41,14 +41,20 @@ void print_row(const std::string& name, bool opaque, const Surface& s) {
   std::printf("\n");
 }
 
-/// Raw little-endian float32, row by row.
+/// NPY 1.0 (numpy.lib.format): magic, version, length of the header, a header padded to 64 bytes, the values.
 void write_depth(const fs::path& directory, const std::string& name, bool opaque, const Surface& s) {
-  const std::string file =
-      name + ".depth" + std::to_string(s.index) + (opaque ? ".opaque" : ".no_write") + ".f32";
-  std::ofstream out(directory / file, std::ios::binary);
+  const fs::path path =
+      directory / (name + ".depth" + std::to_string(s.index) + (opaque ? ".opaque" : ".no_write") + ".npy");
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(s.height) +
+                       ", " + std::to_string(s.width) + "), }";
+  constexpr std::size_t kPreamble = 10;  // magic, version and length
+  while ((kPreamble + header.size() + 1) % 64 != 0) header += ' ';
+  header += '\n';
+  std::ofstream out(path, std::ios::binary);
+  out << "\x93NUMPY" << '\x01' << '\x00' << static_cast<char>(header.size()) << '\x00' << header;
   out.write(reinterpret_cast<const char*>(s.depth.data()),
             static_cast<std::streamsize>(s.depth.size() * sizeof(float)));
-  if (!out) throw halfspace::InputError((directory / file).string() + ": cannot be written");
+  if (!out) throw halfspace::InputError(path.string() + ": cannot be written");
 }
 
 }  // namespace
@@ -61,14 +67,18 @@ int main(int argc, char** argv) {
   try {
     const halfspace::Frame frame = halfspace::read_ptf(argv[1]);
     const std::string name = frame_name(argv[1]);
+    Options options;
+    options.late_z = LateZ::kNoWrite;
+    const std::vector<Surface> no_write = rasterize(frame, options);
+    options.late_z = LateZ::kOpaque;
+    const std::vector<Surface> opaque = rasterize(frame, options);
     std::printf("%s\n", kColumns);
-    for (const bool opaque : {false, true}) {
-      Options options;
-      options.late_z = opaque ? LateZ::kOpaque : LateZ::kNoWrite;
-      for (const Surface& surface : halfspace::reference::rasterize(frame, options)) {
-        print_row(name, opaque, surface);
-        if (argc == 3) write_depth(argv[2], name, opaque, surface);
-      }
+    for (std::size_t i = 0; i < opaque.size(); ++i) {
+      print_row(name, false, no_write[i]);
+      print_row(name, true, opaque[i]);
+      if (argc != 3) continue;
+      write_depth(argv[2], name, false, no_write[i]);
+      write_depth(argv[2], name, true, opaque[i]);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "halfspace_reference: %s\n", error.what());

@@ -82,7 +82,8 @@ void shade_fragment(const DrawContext& c, std::int64_t x, std::int64_t y, double
   const std::size_t pixel = static_cast<std::size_t>(y) * s.width + static_cast<std::size_t>(x);
   ++s.counters.covered_fragments;
   count_up(s.fragments[pixel]);
-  const std::uint32_t code = encode_depth(depth, c.storage);
+  const double rounded = c.options.float32_depth ? static_cast<float>(depth) : depth;
+  const std::uint32_t code = encode_depth(rounded, c.storage);
   if (c.tests && !depth_test(static_cast<std::uint32_t>(c.draw.depth_func), code, s.codes[pixel])) return;
   ++s.counters.depth_passed;
   count_up(s.survivors[pixel]);
@@ -180,8 +181,8 @@ void draw(const Frame& frame, const Command& command, const Options& options, Su
   for (std::uint32_t i = 0; i + 2 < command.index_count; i += 3) {
     std::array<glm::vec4, 3> vertices;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint64_t index = frame.indices.at(std::uint64_t{command.first_index} + i + k);
-      vertices[k] = frame.vertices.at(command.first_vertex + index);
+      const std::uint64_t index = frame.indices[command.first_index + i + k];
+      vertices[k] = frame.vertices[command.first_vertex + index];
     }
     draw_triangle(context, vertices);
   }
@@ -195,6 +196,39 @@ void clear(const Frame& frame, const Command& command, Surface& surface) {
   for (std::int64_t y = rect.first_y; y < rect.end_y; ++y) {
     for (std::int64_t x = rect.first_x; x < rect.end_x; ++x) {
       surface.codes[static_cast<std::size_t>(y) * surface.width + static_cast<std::size_t>(x)] = code;
+    }
+  }
+}
+
+void require(bool condition, const std::string& message) {
+  if (!condition) throw InputError(message);
+}
+
+/// What the rest of this file relies on.
+void check(const Frame& frame, const Options& options) {
+  require(options.subpixel_bits >= 4 && options.subpixel_bits <= 8,
+          "subpixel_bits: " + std::to_string(options.subpixel_bits) + " is not in 4 to 8");
+  std::map<std::uint32_t, Target> first;
+  for (const Target& t : frame.targets) {
+    if (t.depth_surface == kNoSurface) continue;
+    const Target& other = first.try_emplace(t.depth_surface, t).first->second;
+    const std::string surface = "depth surface " + std::to_string(t.depth_surface);
+    require(t.depth_format != DepthFormat{}, surface + ": a target has it without a depth format");
+    require(t.width == other.width && t.height == other.height && t.depth_format == other.depth_format,
+            surface + ": its targets differ in size or format");
+  }
+  for (std::size_t i = 0; i < frame.commands.size(); ++i) {
+    const Command& c = frame.commands[i];
+    const std::string where = "command " + std::to_string(i);
+    require(c.target < frame.targets.size(),
+            where + ": target " + std::to_string(c.target) + " does not exist");
+    if (c.kind != CommandKind::kDraw) continue;
+    require(is_finite(c.viewport), where + ": viewport is not finite");
+    require(std::uint64_t{c.first_index} + c.index_count <= frame.indices.size(),
+            where + ": indices end early");
+    for (std::uint32_t k = 0; k < c.index_count; ++k) {
+      require(std::uint64_t{c.first_vertex} + frame.indices[c.first_index + k] < frame.vertices.size(),
+              where + ": an index has no vertex");
     }
   }
 }
@@ -214,9 +248,7 @@ Surface make_surface(const Target& target) {
 }  // namespace
 
 std::vector<Surface> rasterize(const Frame& frame, const Options& options) {
-  if (options.subpixel_bits < 4 || options.subpixel_bits > 8) {
-    throw InputError("subpixel_bits: " + std::to_string(options.subpixel_bits) + " is not in 4 to 8");
-  }
+  check(frame, options);
   std::map<std::uint32_t, Surface> surfaces;
   std::map<std::uint32_t, Storage> storage;
   for (const Target& target : frame.targets) {
@@ -225,7 +257,7 @@ std::vector<Surface> rasterize(const Frame& frame, const Options& options) {
     storage.try_emplace(target.depth_surface, static_cast<Storage>(target.depth_format));
   }
   for (const Command& command : frame.commands) {
-    const std::uint32_t index = frame.targets.at(command.target).depth_surface;
+    const std::uint32_t index = frame.targets[command.target].depth_surface;
     if (index == kNoSurface) continue;
     if (command.kind == CommandKind::kClear) clear(frame, command, surfaces.at(index));
     if (command.kind == CommandKind::kDraw) draw(frame, command, options, surfaces.at(index));

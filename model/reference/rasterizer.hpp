@@ -22,6 +22,8 @@ struct Options {
   double guard_band = 32;  ///< times the clip volume, in x and in y
   double window_limit =
       32767;  ///< pixels each way from the window origin; tightens the guard band where needed
+  bool float32_depth =
+      true;  ///< a fragment's depth is rounded to float32 before a unorm format rounds it again
 };
 
 /// What happened to the triangles of one depth surface. A triangle is counted once, even if clipping cuts it

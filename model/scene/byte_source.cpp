@@ -9,6 +9,7 @@
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/compression.hpp"
+#include "halfspace/scene/quote.hpp"
 
 namespace halfspace {
 namespace {
@@ -44,12 +45,7 @@ std::vector<std::byte> read_raw(const std::filesystem::path& path, const std::st
 
 }  // namespace
 
-std::string display_name(const std::filesystem::path& path) {
-  std::string name = path.string();
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return name;
-}
+std::string display_name(const std::filesystem::path& path) { return printable(path.string()); }
 
 std::vector<std::byte> read_bytes(const std::filesystem::path& path, std::uint64_t limit) {
   const std::string name = display_name(path);

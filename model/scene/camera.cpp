@@ -23,10 +23,10 @@ namespace halfspace {
 namespace {
 
 const glm::dvec3 kFromFrontRightAbove{0.7, 0.5, 1.0};
-constexpr double kFill = 0.9;            // of the half screen, at the vertex that reaches out farthest
-constexpr double kDepthMargin = 1e-3;    // relative, of near and far
+constexpr double kFill = 0.9;          // of the half screen, at the vertex that reaches out farthest
+constexpr double kDepthMargin = 1e-3;  // relative, of near and far
 constexpr double kLeastNearOverFar = 1e-4;
-constexpr double kParallel = 0.9999;     // cosine from which a view direction counts as straight up or down
+constexpr double kParallel = 0.9999;  // cosine from which a view direction counts as straight up or down
 
 bool is_finite(glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -39,14 +39,16 @@ void check_camera(const Camera& camera, std::string_view name) {
   }
   const auto check_size = [&](std::string_view field, std::uint32_t value) {
     if (value < 1 || value > kMaxTargetSize) {
-      throw InputError(fmt::format("{}: camera {} is {}; legal: 1 to {} pixels", name, field, value, kMaxTargetSize));
+      throw InputError(
+          fmt::format("{}: camera {} is {}; legal: 1 to {} pixels", name, field, value, kMaxTargetSize));
     }
   };
   check_size("width", camera.width);
   check_size("height", camera.height);
   const auto check_point = [&](std::string_view field, const std::optional<glm::vec3>& point) {
     if (point && !is_finite(*point)) {
-      throw InputError(fmt::format("{}: camera {} is {}; legal: finite numbers", name, field, to_text(*point)));
+      throw InputError(
+          fmt::format("{}: camera {} is {}; legal: finite numbers", name, field, to_text(*point)));
     }
   };
   check_point("eye", camera.eye);
@@ -55,8 +57,8 @@ void check_camera(const Camera& camera, std::string_view name) {
 
 void check_mesh(const Mesh& mesh, std::string_view name) {
   if (mesh.indices.size() > 3 * kMaxMeshTriangles) {
-    throw InputError(fmt::format("{}: mesh has {} triangles; legal: at most {}", name, mesh.indices.size() / 3,
-                                 kMaxMeshTriangles));
+    throw InputError(fmt::format("{}: mesh has {} triangles; legal: at most {}", name,
+                                 mesh.indices.size() / 3, kMaxMeshTriangles));
   }
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
     if (mesh.indices[i] >= mesh.positions.size()) {
@@ -68,8 +70,8 @@ void check_mesh(const Mesh& mesh, std::string_view name) {
     const MeshPart& part = mesh.parts[i];
     const std::uint64_t end = std::uint64_t{part.first_index} + part.index_count;
     if (part.index_count % 3 != 0 || end > mesh.indices.size()) {
-      throw InputError(fmt::format("{}: mesh part {} is {} indices from {}; legal: whole triangles up to {}", name,
-                                   i, part.index_count, part.first_index, mesh.indices.size()));
+      throw InputError(fmt::format("{}: mesh part {} is {} indices from {}; legal: whole triangles up to {}",
+                                   name, i, part.index_count, part.first_index, mesh.indices.size()));
     }
   }
 }
@@ -83,8 +85,8 @@ std::vector<glm::dvec3> used_positions(const Mesh& mesh, std::string_view name) 
     if (used[i] && is_finite(mesh.positions[i])) points.emplace_back(mesh.positions[i]);
   }
   if (points.empty()) {
-    throw InputError(fmt::format("{}: mesh has {} triangles and no finite vertex in them; legal: one or more", name,
-                                 mesh.indices.size() / 3));
+    throw InputError(fmt::format("{}: mesh has {} triangles and no finite vertex in them; legal: one or more",
+                                 name, mesh.indices.size() / 3));
   }
   return points;
 }
@@ -134,7 +136,8 @@ glm::dmat4 view_projection(const Camera& camera, std::span<const glm::dvec3> poi
   }
   const double distance = glm::length(eye - at);
   if (!(distance > 0)) {
-    throw InputError(fmt::format("{}: camera eye and at are both {}; legal: two different points", name, to_text(at)));
+    throw InputError(
+        fmt::format("{}: camera eye and at are both {}; legal: two different points", name, to_text(at)));
   }
   const glm::dvec3 backward = (eye - at) / distance;
 
@@ -146,8 +149,9 @@ glm::dmat4 view_projection(const Camera& camera, std::span<const glm::dvec3> poi
     farthest = std::max(farthest, depth);
   }
   if (!(farthest > 0)) {
-    throw InputError(fmt::format("{}: camera eye {} looking at {} has the whole mesh behind it; legal: some in front",
-                                 name, to_text(eye), to_text(at)));
+    throw InputError(
+        fmt::format("{}: camera eye {} looking at {} has the whole mesh behind it; legal: some in front",
+                    name, to_text(eye), to_text(at)));
   }
   const double far = farthest * (1 + kDepthMargin);
   const double near = std::max(nearest * (1 - kDepthMargin), far * kLeastNearOverFar);
@@ -160,8 +164,8 @@ glm::vec4 to_clip(const glm::dmat4& matrix, glm::vec3 position, std::string_view
   constexpr double kMost = std::numeric_limits<float>::max();
   for (int i = 0; i < 4; ++i) {
     if (!(std::abs(clip[i]) <= kMost)) {
-      throw InputError(fmt::format("{}: mesh vertex {} is {} in clip space; legal: up to {}", name, to_text(position),
-                                   clip[i], kMost));
+      throw InputError(fmt::format("{}: mesh vertex {} is {} in clip space; legal: up to {}", name,
+                                   to_text(position), clip[i], kMost));
     }
   }
   return glm::vec4(clip);
@@ -179,7 +183,8 @@ Command draw_command(const Camera& camera) {
   Command draw;
   draw.kind = CommandKind::kDraw;
   draw.flags = static_cast<std::uint32_t>(Flag::kDepthTest) | static_cast<std::uint32_t>(Flag::kDepthWrite) |
-               static_cast<std::uint32_t>(Flag::kNdcZMinusOneToOne) | static_cast<std::uint32_t>(Flag::kColorWrite);
+               static_cast<std::uint32_t>(Flag::kNdcZMinusOneToOne) |
+               static_cast<std::uint32_t>(Flag::kColorWrite);
   draw.depth_func = DepthFunc::kLess;
   const auto width = static_cast<float>(camera.width);
   const auto height = static_cast<float>(camera.height);

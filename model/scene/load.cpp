@@ -9,6 +9,7 @@
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/mesh.hpp"
 #include "halfspace/scene/ptf.hpp"
+#include "halfspace/scene/quote.hpp"
 
 namespace halfspace {
 namespace {
@@ -27,9 +28,8 @@ Frame load(const std::filesystem::path& path, const Camera& camera) {
     frame.name = display_name(path.stem());
     return frame;
   }
-  throw InputError(
-      fmt::format("{}: extension is \"{}\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb",
-                  display_name(path), display_name(path.extension())));
+  throw InputError(fmt::format("{}: extension is {}; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb",
+                               display_name(path), quote(path.extension().string())));
 }
 
 }  // namespace halfspace

@@ -24,10 +24,13 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> indices;  ///< below positions.size()
   std::vector<MeshPart> parts;
-  std::uint64_t skipped = 0;  ///< points and lines of the file, which are not drawn
+  std::uint64_t skipped = 0;  ///< points and lines of the file: OBJ statements, PLY edges, glTF primitives
 };
 
-/// The mesh in an .obj, .ply, .gltf or .glb file (by extension; it may be packed by gzip or xz all the same).
+/// Whether the extension is .obj, .ply, .gltf or .glb.
+[[nodiscard]] bool is_mesh(const std::filesystem::path& path);
+
+/// The mesh in an .obj, .ply, .gltf or .glb file (by extension; its bytes may be packed by gzip or xz).
 /// Polygons are triangulated; a glTF scene's instances are written out. Materials, images and all vertex
 /// attributes but the position are passed over. No material or image file is opened; buffers of a glTF file
 /// are only from its own folder or below. Throws InputError when the file cannot be read, is damaged or

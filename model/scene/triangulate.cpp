@@ -1,9 +1,11 @@
 #include "halfspace/scene/triangulate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <utility>
 
 namespace halfspace {
 namespace {
@@ -14,7 +16,8 @@ double cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 }
 
 /// The polygon seen along its normal, so that it winds counter-clockwise; empty when it has no normal.
-std::vector<glm::dvec2> flatten(std::span<const std::uint32_t> polygon, std::span<const glm::vec3> positions) {
+std::vector<glm::dvec2> flatten(std::span<const std::uint32_t> polygon,
+                                std::span<const glm::vec3> positions) {
   const glm::dvec3 origin = positions[polygon[0]];
   glm::dvec3 normal{0};  // Newell's: exact for a plane polygon, an average otherwise
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -98,6 +98,7 @@ class Pipeline {
     if (record_decisions_) {
       observer_->decision({.draw = draw_index_,
                            .triangle = triangle_.triangle,
+                           .surface = surface_number_,
                            .x = static_cast<std::uint32_t>(x),
                            .y = static_cast<std::uint32_t>(y),
                            .size = static_cast<std::uint32_t>(size),

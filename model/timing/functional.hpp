@@ -58,6 +58,7 @@ struct QuadEvent {
 struct DecisionEvent {
   std::uint32_t draw = 0;
   std::uint32_t triangle = 0;
+  std::uint32_t surface = kNoSurface;
   std::uint32_t x = 0;  ///< top left pixel
   std::uint32_t y = 0;
   std::uint32_t size = 0;

@@ -1,0 +1,53 @@
+# The two commands: `make demo` and `make test`. Everything else is for those who work on halfspace.
+
+BUILD := build/release
+HALFSPACE := $(BUILD)/bin/halfspace
+PYTHON_TOOLS := .venv/.installed
+
+.DEFAULT_GOAL := help
+
+.PHONY: help
+help: ## Show this list.
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
+
+.PHONY: demo
+demo: release ## Install what is missing, build, and rasterize a real frame into out/cc0_truck.
+	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --out out/cc0_truck
+
+.PHONY: test
+test: release debug $(PYTHON_TOOLS) ## Install what is missing, build, and run every test.
+	ctest --test-dir build/debug -LE 'slow|rtl|lint' --output-on-failure -j 2 --quiet --output-log build/debug/ctest.log \
+	  || (tail -n 60 build/debug/ctest.log; exit 1)
+	@tail -n 8 build/debug/ctest.log
+	ctest --test-dir $(BUILD) -LE slow --output-on-failure -j 2
+
+.PHONY: test-slow
+test-slow: release $(PYTHON_TOOLS) ## Run the long campaigns too.
+	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
+
+.PHONY: bench
+bench: release ## Measure the functional model on the shipped frames.
+	$(HALFSPACE) bench speed scenes/vkcube.ptf.xz
+	$(HALFSPACE) bench speed scenes/cc0_truck.ptf.xz
+
+.PHONY: release debug
+release debug: packages
+	cmake --preset $@ $(if $(wildcard build/$@/CMakeCache.txt),>/dev/null,--log-level=WARNING)
+	cmake --build --preset $@
+
+.PHONY: packages
+packages:
+	@sh tools/install_packages.sh
+
+$(PYTHON_TOOLS): tools/requirements.txt | packages
+	/usr/bin/python3 -m venv .venv
+	.venv/bin/pip install --quiet --requirement $<
+	touch $@
+
+.PHONY: format
+format: ## Lay out the sources by clang-format.
+	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i
+
+.PHONY: clean
+clean: ## Remove everything that was built.
+	rm -rf build out .venv

@@ -1,0 +1,17 @@
+/// The subcommands of `halfspace`. Each adds itself to the application; its callback throws InputError or sets
+/// `status`, the exit status of the program.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace halfspace {
+
+void add_run_command(CLI::App& app, int& status);
+void add_info_command(CLI::App& app, int& status);
+void add_config_command(CLI::App& app, int& status);
+void add_diff_command(CLI::App& app, int& status);
+void add_bench_command(CLI::App& app, int& status);
+
+}  // namespace halfspace

@@ -1,0 +1,36 @@
+/// halfspace: the command line.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "halfspace/cli/commands.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app{"halfspace: a cycle-approximate hardware rasterizer model", "halfspace"};
+  app.set_version_flag("--version", HALFSPACE_VERSION);
+  app.require_subcommand(1);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("halfspace: {}; see 'halfspace --help'\n", error.what());
+  });
+  int status = 0;
+  try {
+    halfspace::add_run_command(app, status);
+    halfspace::add_info_command(app, status);
+    halfspace::add_config_command(app, status);
+    halfspace::add_diff_command(app, status);
+    halfspace::add_bench_command(app, status);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "halfspace: not enough memory for this input\n");
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "halfspace: {}\n", error.what());
+    return 1;
+  }
+  return status;
+}

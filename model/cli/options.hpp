@@ -1,0 +1,36 @@
+/// Options that several subcommands share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "halfspace/config/config.hpp"
+#include "halfspace/scene/camera.hpp"
+#include "halfspace/scene/frame.hpp"
+
+namespace halfspace {
+
+/// --config and --set.
+struct MachineOptions {
+  std::string file;
+  std::vector<std::string> settings;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Config config() const;  ///< throws InputError
+};
+
+/// INPUT and, for meshes, the camera.
+struct InputOptions {
+  std::string path;
+  std::string eye;
+  std::string at;
+  std::string size;
+  float fov_degrees = 60;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Camera camera() const;  ///< throws InputError
+  [[nodiscard]] Frame frame() const;    ///< loaded and validated; throws InputError
+};
+
+}  // namespace halfspace

@@ -1,0 +1,81 @@
+#include "halfspace/report/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/report/stats.hpp"
+
+namespace halfspace {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether every entry of the folder was written by one run, as its stats.json says.
+bool is_result(const fs::path& folder) {
+  std::ifstream file(folder / kStatsFile);
+  const nlohmann::json stats = nlohmann::json::parse(file, nullptr, false);
+  if (!stats.is_object() || stats.value("schema", "") != kStatsSchema || !stats["files"].is_array()) {
+    return false;
+  }
+  const auto names = stats["files"].get<std::set<std::string>>();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_regular_file() || names.count(entry.path().filename().string()) == 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& place) : place_(fs::absolute(place).lexically_normal()) {
+  if (!place_.has_filename()) {
+    place_ = place_.parent_path();
+  }
+  std::error_code error;
+  if (fs::exists(place_, error) && !fs::is_directory(place_, error)) {
+    throw InputError(fmt::format("{}: is a file; the output must be a folder", place.string()));
+  }
+  if (fs::is_directory(place_, error) && !fs::is_empty(place_, error) && !is_result(place_)) {
+    throw InputError(fmt::format("{}: holds files that are not of an earlier run; name a new or an empty folder", place.string()));
+  }
+  fs::create_directories(place_.parent_path(), error);
+  std::string pattern = (place_.parent_path() / fmt::format(".{}.XXXXXX", place_.filename().string())).string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw InputError(fmt::format("{}: cannot be made: {}", place.string(), std::strerror(errno)));
+  }
+  staging_ = pattern;
+  fs::permissions(staging_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                                fs::perms::others_exec);
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code error;
+  fs::remove_all(staging_, error);
+}
+
+fs::path OutputFolder::file(const std::string& name) {
+  files_.push_back(name);
+  return staging_ / name;
+}
+
+void OutputFolder::commit() {
+  // Exchanging is one step for anybody who looks; what was there before is then removed under the staging name.
+  const bool replace = fs::exists(place_);
+  const unsigned flags = replace ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+  if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, place_.c_str(), flags) != 0) {
+    throw InputError(fmt::format("{}: cannot be put in place: {}", place_.string(), std::strerror(errno)));
+  }
+}
+
+}  // namespace halfspace

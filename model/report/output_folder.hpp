@@ -1,0 +1,34 @@
+/// A folder of results that appears whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halfspace {
+
+/// Files are written to a hidden folder beside the final one, which commit() puts in place. Without commit() nothing is
+/// left behind. An earlier result at the place is replaced as a whole; a folder that holds anything else is refused.
+class OutputFolder {
+ public:
+  /// Throws InputError when the place cannot be written or holds other files.
+  explicit OutputFolder(const std::filesystem::path& place);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  /// The path to write file `name` to; it becomes part of the result.
+  std::filesystem::path file(const std::string& name);
+
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+
+  /// Puts the result in place. Throws InputError.
+  void commit();
+
+ private:
+  std::filesystem::path place_;
+  std::filesystem::path staging_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace halfspace

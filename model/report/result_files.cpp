@@ -1,0 +1,61 @@
+#include "halfspace/report/result_files.hpp"
+
+#include <fmt/format.h>
+
+#include "halfspace/report/npy.hpp"
+#include "halfspace/report/pictures.hpp"
+#include "halfspace/report/stats.hpp"
+
+namespace halfspace {
+namespace {
+
+/// Writes an image with value(x, y) at each pixel.
+template <class Value, class Get>
+void write_array(const std::filesystem::path& path, const char* descr, int width, int height, const Get& value) {
+  NpyWriter writer(path, descr, sizeof(Value) * static_cast<std::size_t>(width), fmt::format(" {}", width));
+  std::vector<Value> row(static_cast<std::size_t>(width));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      row[static_cast<std::size_t>(x)] = value(x, y);
+    }
+    writer.append(std::as_bytes(std::span(row)));
+  }
+  writer.finish();
+}
+
+void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t number) {
+  const int width = surface.codes.width();
+  const int height = surface.codes.height();
+  write_array<float>(folder.file(fmt::format("depth{}.npy", number)), "'<f4'", width, height,
+                     [&](int x, int y) { return depth_of_code(surface.format, surface.codes.at(x, y)); });
+  write_array<std::uint16_t>(folder.file(fmt::format("fragments{}.npy", number)), "'<u2'", width, height,
+                             [&](int x, int y) { return surface.fragments.at(x, y); });
+  write_array<std::uint16_t>(folder.file(fmt::format("survivors{}.npy", number)), "'<u2'", width, height,
+                             [&](int x, int y) { return surface.survivors.at(x, y); });
+}
+
+}  // namespace
+
+void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, const std::string& fidelity,
+                        const FrameResult& result, const Recorder& recorder) {
+  for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
+    const Surface& surface = result.surfaces[i];
+    if (surface.codes.empty()) {
+      continue;  // no target uses this number
+    }
+    write_arrays(folder, surface, i);
+    if (recorder.lanes.empty()) {
+      continue;  // no pictures asked for
+    }
+    const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, i)); };
+    write_png(picture("shaded"), shaded_picture(frame, result, i));
+    write_png(picture("depth"), depth_picture(surface));
+    write_png(picture("overdraw"), overdraw_picture(surface));
+    write_png(picture("tiles"), tile_picture(surface, recorder.decisions[i], config.tile_size));
+    write_png(picture("quads"), quad_picture(surface, recorder.lanes[i]));
+  }
+  const std::filesystem::path stats = folder.file(kStatsFile);
+  write_stats(stats, frame, config, fidelity, result, folder.files());
+}
+
+}  // namespace halfspace

@@ -1,0 +1,7 @@
+# Fails when rtl/raster_pkg.sv (COMMITTED) is not what the tool PRINT prints.
+execute_process(COMMAND ${PRINT} OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+file(READ ${COMMITTED} committed)
+if(NOT printed STREQUAL committed)
+  message(FATAL_ERROR "${COMMITTED} differs from model/numerics/widths.hpp and model/units/packets.hpp.\n"
+                      "To print it anew: cmake --build ${BUILD} --target raster_pkg\n")
+endif()

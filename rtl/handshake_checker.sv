@@ -1,0 +1,23 @@
+// The law of every link: once valid, a packet stays valid and unchanged until it is taken. Bound to the links of a
+// unit, see tb.
+
+module handshake_checker #(
+  /// Bits of the payload.
+  parameter int unsigned Width = 32
+) (
+  input logic             clk_i,
+  input logic             rst_ni,
+  input logic             valid_i,
+  input logic             ready_i,
+  input logic [Width-1:0] payload_i
+);
+
+  ValidStays: assert property (@(posedge clk_i) disable iff (!rst_ni)
+      valid_i && !ready_i |=> valid_i)
+  else $error("valid withdrawn before ready");
+
+  PayloadStays: assert property (@(posedge clk_i) disable iff (!rst_ni)
+      valid_i && !ready_i |=> $stable(payload_i))
+  else $error("payload changed while stalled");
+
+endmodule

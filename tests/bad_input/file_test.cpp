@@ -1,0 +1,64 @@
+// Are files that are not there, not readable or not of a known kind refused, by name?
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "../scene/fixture.hpp"
+#include "halfspace/scene/byte_source.hpp"
+#include "halfspace/scene/load.hpp"
+#include "halfspace/scene/mesh.hpp"
+
+using namespace halfspace;
+using namespace halfspace::test;
+
+TEST_CASE("a file that is missing, a folder or empty is refused") {
+  const TempFolder folder;
+  for (const std::string name : {"a.ptf", "a.ptf.xz", "a.obj", "a.ply", "a.gltf", "a.glb"}) {
+    const std::string path = folder.path(name).string();
+    CHECK(error_of([&] { return load(path); }) ==
+          path + ": cannot be read (No such file or directory); legal: a readable file");
+    std::filesystem::create_directory(path);
+    CHECK(error_of([&] { return load(path); }) ==
+          path + ": cannot be read (it is a directory); legal: a readable file");
+    std::filesystem::remove(path);
+    folder.write(name, "");
+    CHECK(error_of([&] { return load(path); }).starts_with(path + ": "));
+  }
+}
+
+TEST_CASE("an unknown extension is refused with the known ones") {
+  CHECK(error_of([] { return load("a.stl"); }) ==
+        "a.stl: extension is \".stl\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb");
+  CHECK(error_of([] { return load("a"); }) ==
+        "a: extension is \"\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb");
+  CHECK(error_of([] { return load(""); }).find("legal: .ptf") != std::string::npos);
+  CHECK(error_of([] { return read_mesh("a.ptf"); }) ==
+        "a.ptf: extension is \".ptf\"; legal: .obj, .ply, .gltf, .glb");
+}
+
+TEST_CASE("an error stays on one line whatever the file is called") {
+  CHECK(error_of([] { return load("a\nb\x1B.ptf"); }) ==
+        "a?b?.ptf: cannot be read (No such file or directory); legal: a readable file");
+}
+
+TEST_CASE("a file above the limit is refused") {
+  const TempFolder folder;
+  const auto path = folder.write("a", "12345");
+  CHECK(read_bytes(path, 5).size() == 5);
+  CHECK(error_of([&] { return read_bytes(path, 4); }) ==
+        path.string() + ": has more than 4 bytes; legal: at most 4 bytes");
+  CHECK(error_of([] { return read_bytes("/dev/zero", 1 << 20); }) ==
+        "/dev/zero: has more than 1048576 bytes; legal: at most 1048576 bytes");
+}
+
+TEST_CASE("a file without permission is refused") {
+  if (geteuid() == 0) {
+    WARN("skipped: root may read every file");
+    return;
+  }
+  const TempFolder folder;
+  const auto path = folder.write("a.ptf", "x");
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  CHECK(error_of([&] { return load(path); }) ==
+        path.string() + ": cannot be read (Permission denied); legal: a readable file");
+}

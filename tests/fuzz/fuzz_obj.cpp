@@ -1,0 +1,8 @@
+#include "fuzz_mesh.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace halfspace;
+  const auto mesh = fuzz::read_or_reject([&] { return parse_obj(fuzz::as_bytes(data, size), "fuzz"); });
+  if (mesh) fuzz::check_mesh(*mesh);
+  return 0;
+}

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,obj,ply,gltf}/*.
+
+Each is the smallest file that reaches one branch of a reader. Standard library only.
+"""
+import base64, gzip, json, lzma, pathlib, struct, sys
+
+POINTS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.5)]
+CONCAVE = [(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0)]
+
+
+def ptf():
+    draw = struct.pack("<12I10f4i24x", 1, 7, 0, 0x80B, 1, 4, 0, 6, 0, 4, 0, 0, 0, 8, 8, -8, 0, 1, 0, 0, 0, 0,
+                       0, 0, 1 << 24, 1 << 24)
+    clear = struct.pack("<12I10f4i24x", 2, 6, 0, 0x60000, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
+                        0, 0, 8, 8)
+    targets = struct.pack("<8I", 8, 8, 1, 2, 1, 1, 0, 0) + struct.pack("<8I", 4, 4, 1, 0, 1, 0, 0xFFFFFFFF, 0)
+    vertices = b"".join(struct.pack("<4f", *p, 1) for p in POINTS)
+    indices = struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+    meta = b"{}"
+    header = struct.pack("<4s9I24x", b"PTF1", 1, 64, 32, 128, 2, 2, 4, 6, len(meta))
+    plain = header + targets + clear + draw + vertices + indices + meta
+    tails = struct.pack("<4s9I24x", b"PTF1", 1, 68, 36, 132, 1, 1, 0, 0, 0) + bytes(4)
+    tails += targets[:32] + bytes(4) + clear + bytes(4)
+    return {"plain": plain, "empty": header[:20] + bytes(44), "tails": tails, "gzip": gzip.compress(plain, mtime=0),
+            "xz": lzma.compress(plain), "xz_no_check": lzma.compress(plain, check=lzma.CHECK_NONE),
+            "gzip_twice": gzip.compress(plain[:99], mtime=0) + gzip.compress(plain[99:], mtime=0)}
+
+
+def obj():
+    v = "".join("v %g %g %g\n" % p for p in POINTS)
+    concave = "".join("v %g %g %g\n" % p for p in CONCAVE)
+    return {"quad": v + "f 1 2 3 4\n", "negative": v + "vt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1\n",
+            "materials": "mtllib a.mtl\no thing\n" + v + "usemtl red\nf 1 2 3\ng a b\nusemtl blue\nf 1 3 4\n",
+            "concave": concave + "f 1 2 3 4\n", "skipped": v + "p 1\nl 1 2 3\nf 1 2 3\r\n# end\n",
+            "numbers": "v 1e-3 -.5 +2.\nv 1e38 1 1 1 0 0 0\nv 0 0 0\nf 1 2 3\n", "bad": "v a b c\nf 0 1 9\n"}
+
+
+def ply():
+    head = "ply\nformat %s 1.0\ncomment x\nelement vertex 4\nproperty %s x\nproperty %s y\nproperty %s z\n%s"
+    faces = "element face %d\nproperty list uchar int vertex_indices\nend_header\n"
+    text = "".join("%g %g %g\n" % p for p in POINTS)
+    out = {"ascii": head % ("ascii", "float", "float", "float", faces % 2) + text + "3 0 1 2\n4 0 1 2 3\n",
+           "concave": head % ("ascii", "double", "double", "double", faces % 1)
+           + "".join("%g %g %g\n" % p for p in CONCAVE) + "4 0 1 2 3\n",
+           "edges": head % ("ascii", "int", "short", "char", "property uchar red\nelement edge 1\nproperty int vertex1\n"
+                            "property list uint8 float64 w\n" + faces % 1)
+           + "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 1 1\n0 2 5 6\n3 0 1 2\n"}
+    for order, name in (("<", "binary_little_endian"), (">", "binary_big_endian")):
+        body = b"".join(struct.pack(order + "3f", *p) for p in POINTS) + struct.pack(order + "B4iB3i", 4, 0, 1, 2, 3, 3, 0, 1, 2)
+        out[name] = (head % (name, "float32", "float32", "float32", faces % 2)).encode() + body
+    return out
+
+
+def gltf():
+    points = b"".join(struct.pack("<3f", *p) for p in POINTS)
+    data = points + struct.pack("<6H", 0, 1, 2, 0, 2, 3) + bytes([0, 1, 2, 3])
+
+    def scene(**change):
+        s = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+             "nodes": [{"children": [1], "matrix": [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1]},
+                       {"mesh": 0, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1], "scale": [1, 2, 1]}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 4, "material": 0},
+                                        {"attributes": {"POSITION": 0}, "indices": 2, "mode": 5},
+                                        {"attributes": {"POSITION": 0}, "mode": 6},
+                                        {"attributes": {"POSITION": 0}, "mode": 0}]}],
+             "materials": [{"name": "red"}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                           {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                           {"bufferView": 2, "componentType": 5121, "count": 4, "type": "SCALAR"}],
+             "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12},
+                             {"buffer": 0, "byteOffset": 60, "byteLength": 4}],
+             "buffers": [{"byteLength": len(data)}]}
+        s.update(change)
+        return s
+
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    text = json.dumps(scene(buffers=[{"byteLength": len(data), "uri": uri}])).encode()
+    chunk = json.dumps(scene()).encode()
+    chunk += b" " * (-len(chunk) % 4)
+    total = 12 + 8 + len(chunk) + 8 + len(data)
+    glb = struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(chunk), b"JSON") + chunk
+    glb += struct.pack("<I4s", len(data), b"BIN\0") + data
+    other = json.dumps(scene(images=[{"uri": "a.png"}], textures=[{"source": 0}], extensionsUsed=["X"],
+                             cameras=[{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+                             skins=[{"joints": [0]}], animations=[{"channels": [], "samplers": []}],
+                             extras={"a": [1, {"b": None}]}, extensions={"KHR_lights_punctual": {"lights": []}},
+                             samplers=[{}], buffers=[{"byteLength": len(data), "uri": uri}])).encode()
+    return {"text.gltf": text, "binary.glb": glb, "other.gltf": other, "outside.gltf": json.dumps(
+        scene(buffers=[{"byteLength": 4, "uri": "../a.bin"}])).encode()}
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    for kind, make in (("ptf", ptf), ("obj", obj), ("ply", ply), ("gltf", gltf)):
+        (folder / kind).mkdir(parents=True, exist_ok=True)
+        for name, content in make().items():
+            (folder / kind / name).write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+main()
