@@ -2,10 +2,10 @@
 set(dir coverage_${MODEL})
 file(REMOVE_RECURSE ${dir})
 file(MAKE_DIRECTORY ${dir})
-execute_process(COMMAND ${BENCH} --model ${MODEL} --tiles 6000 --coverage ${dir}/run.dat --failure-wave ""
+execute_process(COMMAND ${BENCH} --model ${MODEL} --tiles 6000 --coverage ${dir}/run.dat --failure-wave none
                 COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 file(GLOB runs ${dir}/*.dat)
-execute_process(COMMAND ${VERILATOR_COVERAGE} --annotate ${dir} --annotate-points ${runs}
+execute_process(COMMAND ${VERILATOR_COVERAGE} --annotate ${dir} ${runs}
                 COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
 if(NOT output MATCHES "Total coverage \\(([0-9]+)/([0-9]+)\\)")
   message(FATAL_ERROR "no total in the output of verilator_coverage:\n${output}")

@@ -92,6 +92,14 @@ std::string place(const NpyArray& array, const std::vector<Field>& fields, std::
   return fmt::format("record {} ({})", index, identity(fields, record));
 }
 
+std::uint64_t element_count(const NpyArray& array) {
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : array.shape) {
+    count *= extent;
+  }
+  return count;
+}
+
 std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::path& b_path) {
   const std::string name = a_path.filename().string();
   const NpyArray a = read_npy(a_path);
@@ -101,8 +109,11 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
   }
   const std::vector<Field> fields = parse_descr(a.descr, a_path.string());
   const std::size_t size = fields.back().offset + fields.back().size * fields.back().count;
-  if (a.data.size() % size != 0 || b.data.size() % size != 0) {
-    throw InputError(fmt::format("{}: its length is not that of whole records of {} bytes", a_path.string(), size));
+  for (const auto& [array, path] : {std::pair{&a, &a_path}, std::pair{&b, &b_path}}) {
+    if (array->data.size() != size * element_count(*array)) {
+      throw InputError(fmt::format("{}: holds {} bytes, not the {} elements of {} bytes of its header", path->string(),
+                                   array->data.size(), element_count(*array), size));
+    }
   }
   const std::size_t common = std::min(a.data.size(), b.data.size()) / size;
   FileDifference difference{.file = name, .count = 0, .first = ""};

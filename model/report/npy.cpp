@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/byte_source.hpp"
 
 namespace halfspace {
 namespace {
@@ -17,7 +18,6 @@ static_assert(std::endian::native == std::endian::little, "records are written a
 constexpr std::string_view kMagic{"\x93NUMPY\x01\x00", 8};
 constexpr std::size_t kLengthAt = 8;
 constexpr std::size_t kDictionaryAt = 10;
-constexpr std::uint64_t kMaxFileSize = std::uint64_t{8} << 30;
 
 /// The text after `key` in the header's dictionary, up to the comma that ends the value.
 std::string value_of(const std::string& dictionary, std::string_view key) {
@@ -94,31 +94,20 @@ void NpyWriter::finish() {
 }
 
 NpyArray read_npy(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  if (error || !file) {
-    throw InputError(fmt::format("{}: cannot be read", path.string()));
-  }
-  std::string head(kDictionaryAt, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (!file || head.compare(0, kMagic.size(), kMagic) != 0 || size > kMaxFileSize) {
-    throw InputError(fmt::format("{}: not an .npy file of version 1.0 of at most 8 GiB", path.string()));
+  const std::vector<std::byte> bytes = read_bytes(path);
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.size() < kDictionaryAt || text.substr(0, kMagic.size()) != kMagic) {
+    throw InputError(fmt::format("{}: not an .npy file of version 1.0", path.string()));
   }
   std::uint16_t length = 0;
-  std::memcpy(&length, head.data() + kLengthAt, sizeof length);
-  std::string dictionary(length, '\0');
-  file.read(dictionary.data(), length);
-  if (!file || value_of(dictionary, "'fortran_order':") != "False") {
+  std::memcpy(&length, bytes.data() + kLengthAt, sizeof length);
+  const std::string dictionary(text.substr(kDictionaryAt, length));
+  if (dictionary.size() != length || value_of(dictionary, "'fortran_order':") != "False") {
     throw InputError(fmt::format("{}: its header is cut off or not of an array in row order", path.string()));
   }
-  NpyArray array{.descr = value_of(dictionary, "'descr':"), .shape = parse_shape(value_of(dictionary, "'shape':")), .data = {}};
-  array.data.resize(size - kDictionaryAt - length);
-  file.read(reinterpret_cast<char*>(array.data.data()), static_cast<std::streamsize>(array.data.size()));
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be read", path.string()));
-  }
-  return array;
+  return {.descr = value_of(dictionary, "'descr':"),
+          .shape = parse_shape(value_of(dictionary, "'shape':")),
+          .data = {bytes.begin() + static_cast<std::ptrdiff_t>(kDictionaryAt + length), bytes.end()}};
 }
 
 }  // namespace halfspace

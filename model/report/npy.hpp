@@ -42,7 +42,7 @@ struct NpyArray {
   std::vector<std::byte> data;       ///< row order
 };
 
-/// Reads a file of at most 8 GiB. Throws InputError when it is not an .npy file in row order.
+/// Reads a file, packed or not (scene/byte_source.hpp). Throws InputError when it is not an .npy file in row order.
 NpyArray read_npy(const std::filesystem::path& path);
 
 }  // namespace halfspace

@@ -22,8 +22,18 @@ std::string last_error() { return std::generic_category().message(errno != 0 ? e
   throw InputError(fmt::format("{}: cannot be read ({}); legal: a readable file", name, reason));
 }
 
-std::vector<std::byte> read_raw(const std::filesystem::path& path, const std::string& name,
-                                std::uint64_t limit) {
+}  // namespace
+
+std::string display_name(const std::filesystem::path& path) { return printable(path.string()); }
+
+std::vector<std::byte> read_raw_bytes(const std::filesystem::path& path, std::uint64_t limit) {
+  const std::string name = display_name(path);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    fail_to_read(name, error ? error.message() : "No such file or directory");
+  }
+  if (std::filesystem::is_directory(status)) fail_to_read(name, "it is a directory");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail_to_read(name, last_error());
@@ -43,19 +53,8 @@ std::vector<std::byte> read_raw(const std::filesystem::path& path, const std::st
   return bytes;
 }
 
-}  // namespace
-
-std::string display_name(const std::filesystem::path& path) { return printable(path.string()); }
-
 std::vector<std::byte> read_bytes(const std::filesystem::path& path, std::uint64_t limit) {
-  const std::string name = display_name(path);
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    fail_to_read(name, error ? error.message() : "No such file or directory");
-  }
-  if (std::filesystem::is_directory(status)) fail_to_read(name, "it is a directory");
-  return decompress(read_raw(path, name, limit), name, limit);
+  return decompress(read_raw_bytes(path, limit), display_name(path), limit);
 }
 
 void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {

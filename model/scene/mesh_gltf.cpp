@@ -52,7 +52,7 @@ tinygltf::FsCallbacks file_callbacks(Folder& folder) {
   callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*, const std::string& file,
                                void* user) {
     auto& from = *static_cast<Folder*>(user);
-    const std::vector<std::byte> bytes = read_bytes(file, from.bytes_left);
+    const std::vector<std::byte> bytes = read_raw_bytes(file, from.bytes_left);
     from.bytes_left -= bytes.size();
     out->resize(bytes.size());
     std::transform(bytes.begin(), bytes.end(), out->begin(),

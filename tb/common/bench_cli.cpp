@@ -101,7 +101,7 @@ int run_all(const UnitBench& bench, const CommandLine& command_line) {
     if (result.failure) {
       fmt::print("FAIL {} {}: {}\n{} in cycle {}: {}\n", bench.unit, model.name, describe(run),
                  to_string(result.failure->kind), result.failure->cycle, result.failure->message);
-      if (run.options.wave_file.empty() && !command_line.failure_wave.empty()) {
+      if (run.options.wave_file.empty() && command_line.failure_wave != "none") {
         record_failure(model, shape, run, *result.failure, command_line.failure_wave);
       }
       return static_cast<int>(result.failure->kind);
@@ -163,7 +163,7 @@ int bench_main(int argc, char** argv, const UnitBench& bench) {
       ->check(CLI::Range(0.0, 0.99));
   app.add_option("--replay", command_line.replay, "file of recorded packets for the case replay");
   app.add_option("--wave", command_line.wave, "write a waveform (FST)");
-  app.add_option("--failure-wave", command_line.failure_wave, "waveform of a failing run, made again; '' for none")
+  app.add_option("--failure-wave", command_line.failure_wave, "waveform of a failing run, made again, or none")
       ->capture_default_str();
   app.add_option("--coverage", command_line.coverage, "write coverage, of a model built with it");
   app.add_option("--fault", command_line.fault, "fault between the RTL and its checker, which must find it")

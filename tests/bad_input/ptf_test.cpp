@@ -61,7 +61,7 @@ TEST_CASE("any one byte changed gives a valid frame or an InputError") {
       INFO("byte " << at << " xor " << change);
       try {
         const Frame frame = parse_ptf(as_bytes(damaged), "f");
-        CHECK_NOTHROW(validate(frame));
+        validate(frame);
       } catch (const InputError& error) {
         CHECK(std::string_view(error.what()).starts_with("f: "));
       }

@@ -164,7 +164,7 @@ TEST_CASE("A jittered mesh has no gaps and no double covers", "[property][covera
           grid.push_back({2 * one * i + dx, 2 * one * j + dy});
         }
       }
-      const auto vertex = [&](int i, int j) { return grid[static_cast<std::size_t>(j * (kCells + 1) + i)]; };
+      const auto vertex = [&](int i, int j) { return grid.at(static_cast<unsigned>(j * (kCells + 1) + i)); };
       for (const TieRule rule : kRules) {
         std::vector<int> sum(4 * kCells * kCells, 0);
         for (int j = 0; j < kCells; ++j) {

@@ -117,7 +117,7 @@ TEST_CASE("a jittered mesh has no gaps and no double covers") {
   const double cell = 1024.0 / kCells;
   const auto corner = [&](int x, int y, std::vector<glm::dvec3>& grid) {
     const bool border = x == 0 || y == 0 || x == kCells || y == kCells;
-    const double jitter = border ? 0 : cell * 0.45;
+    const double jitter = border ? 0 : cell * 0.24;  // a quarter of a cell could fold a triangle over
     const auto offset = [&] { return jitter * static_cast<double>(random.between(-1000, 1000)) / 1000; };
     grid.emplace_back(x * cell + offset(), y * cell + offset(), 0.5);
   };
@@ -238,7 +238,7 @@ TEST_CASE("every state of a draw gives what the reference gives") {
                         static_cast<std::int32_t>(random.between(0, 80)), static_cast<std::int32_t>(random.between(0, 80))};
       }
       if (random.between(0, 2) == 0) {
-        draw.viewport = {16, 48, 32, -32};
+        draw.viewport = {8, 72, 64, -64};  // moved and turned over, still on the grid
         draw.depth_range = {0.25f, 0.75f};
       }
     }

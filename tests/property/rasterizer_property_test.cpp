@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/reference/clip.hpp"
 #include "halfspace/reference/rasterizer.hpp"
+#include "halfspace/reference/window.hpp"
 #include "random.hpp"
 
 namespace {
@@ -252,8 +254,8 @@ TEST_CASE("A triangle behind the eye is cut at it", "[property][rasterizer]") {
 
 TEST_CASE("Vertices far outside the window are cut by the guard band without a trace",
           "[property][rasterizer]") {
-  // Clipping in double is exact to 2^-53 of the distance between the vertices, so that the cut lies where it should
-  // up to here; with vertices 1e20 screens apart it would be off by 1e4 screens.
+  // Clipping in double is exact to 2^-53 of the distance between the vertices, so that the cut lies where it
+  // should up to here; with vertices 1e20 screens apart it would be off by 1e4 screens.
   for (const float reach : {2.0f, 31.0f, 33.0f, 1e4f, 1e9f}) {
     Frame frame = empty_frame(64, 48);
     add_draw(frame, rectangle(-reach, -reach, reach, reach, 0.5f));
@@ -263,6 +265,36 @@ TEST_CASE("Vertices far outside the window are cut by the guard band without a t
     CHECK(std::all_of(s.depth.begin(), s.depth.end(), [](float z) { return z == 0.5f; }));
     CHECK(s.counters.drawn == 2);
   }
+}
+
+TEST_CASE("What clipping leaves is on the 16-bit window, at any viewport", "[property][rasterizer]") {
+  using halfspace::reference::Homogeneous;
+  using halfspace::reference::Polygon;
+  CAPTURE(seed());
+  Random random(seed());
+  constexpr double kLimit = 32767;
+  int left = 0;
+  for (int round = 0; round < 500; ++round) {
+    Command draw;
+    draw.viewport = {random.between(-8000, 8000), random.between(-8000, 8000), random.between(1, 16384),
+                     random.between(-16384, -1)};
+    Polygon polygon;
+    for (int i = 0; i < 3; ++i) {
+      const auto coordinate = [&] { return static_cast<double>(random.between(-100000, 100000)) / 1000; };
+      polygon.push_back({coordinate(), coordinate(), 0.5, coordinate() / 10 + 10});
+    }
+    const auto planes = halfspace::reference::guard_band_planes(32, kLimit, draw.viewport.x, draw.viewport.y,
+                                                                draw.viewport.z, draw.viewport.w);
+    for (const Homogeneous& v : halfspace::reference::clip(polygon, planes)) {
+      if (v.w == 0) continue;
+      ++left;
+      const halfspace::reference::WindowVertex window = to_window(v, draw);
+      CAPTURE(round, v.x, v.y, v.w);
+      // A thousandth of a pixel for the cut itself, which divides by w after it was made.
+      REQUIRE(std::max(std::abs(window.x), std::abs(window.y)) <= kLimit + 0.001);
+    }
+  }
+  REQUIRE(left > 500);
 }
 
 TEST_CASE("Infinities, NaN and w <= 0 drop the triangle and are counted", "[property][rasterizer]") {

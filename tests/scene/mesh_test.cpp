@@ -214,6 +214,22 @@ TEST_CASE("glTF: indices of 8, 16 and 32 bits, interleaved positions, shared and
   CHECK(corners(read_mesh(folder.write("cube.gltf", json.dump()))) == cube_corners());
 }
 
+TEST_CASE(
+    "glTF: an outside buffer is taken as it is, even if it looks packed, and beside a file without folder") {
+  const TempFolder folder;
+  std::string buffer = cube_buffer();
+  buffer[0] = '\x1F';
+  buffer[1] = '\x8B';
+  nlohmann::json json = cube_gltf();
+  json["buffers"][0]["uri"] = "cube.bin";
+  folder.write("cube.bin", buffer);
+  folder.write("cube.gltf", json.dump());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path(""));
+  CHECK(read_mesh("cube.gltf").positions[1] == kCubeCorners[1]);
+  std::filesystem::current_path(before);
+}
+
 TEST_CASE("glTF: images are never opened") {
   nlohmann::json json = cube_gltf();
   json["images"] = nlohmann::json::parse(
