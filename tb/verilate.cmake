@@ -1,7 +1,7 @@
 # halfspace_verilated_runtime: Verilator's run-time library, compiled once for all models.
 #
-# halfspace_verilate(TARGET PREFIX TOP SOURCES... ARGS...) verilates at build time and adds the model, class PREFIX,
-# to TARGET. Verilator's own verilate() runs at configure time and compiles the run-time library for each target.
+# halfspace_verilate(TARGET PREFIX TOP OPTIMIZE SOURCES... ARGS...) verilates at build time and adds the model, class
+# PREFIX, to TARGET, compiled with OPTIMIZE (-O2). Verilator's own verilate() runs at configure time and compiles the run-time library for each target.
 set(runtime_dir ${VERILATOR_ROOT}/include)
 add_library(halfspace_verilated_runtime STATIC ${runtime_dir}/verilated.cpp ${runtime_dir}/verilated_cov.cpp
                                                ${runtime_dir}/verilated_fst_c.cpp ${runtime_dir}/verilated_threads.cpp)
@@ -11,11 +11,11 @@ find_package(Threads REQUIRED)
 target_link_libraries(halfspace_verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 
 # Not our code: no warnings, no instrumentation, and fast in every build type.
-set(halfspace_generated_options -w -O2 -fno-sanitize=all -fno-profile-arcs -fno-test-coverage)
-target_compile_options(halfspace_verilated_runtime PRIVATE ${halfspace_generated_options})
+set(halfspace_generated_options -w -fno-sanitize=all -fno-profile-arcs -fno-test-coverage)
+target_compile_options(halfspace_verilated_runtime PRIVATE ${halfspace_generated_options} -O2)
 
 function(halfspace_verilate target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX;TOP" "SOURCES;ARGS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX;TOP;OPTIMIZE" "SOURCES;ARGS")
   set(dir ${CMAKE_CURRENT_BINARY_DIR}/${arg_PREFIX})
   set(all ${dir}/${arg_PREFIX}__all.cpp)
   add_custom_command(
@@ -25,7 +25,7 @@ function(halfspace_verilate target)
     COMMAND ${CMAKE_COMMAND} -DDIR=${dir} -DALL=${all} -P ${PROJECT_SOURCE_DIR}/tb/one_file.cmake
     DEPENDS ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tb/one_file.cmake raster_pkg_is_current
     COMMENT "Verilating ${arg_PREFIX}" VERBATIM)
-  set_source_files_properties(${all} PROPERTIES COMPILE_OPTIONS "${halfspace_generated_options}")
+  set_source_files_properties(${all} PROPERTIES COMPILE_OPTIONS "${halfspace_generated_options};${arg_OPTIMIZE}")
   target_sources(${target} PRIVATE ${all})
   target_include_directories(${target} SYSTEM PRIVATE ${dir})
   target_link_libraries(${target} PRIVATE halfspace_verilated_runtime)

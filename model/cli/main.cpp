@@ -11,7 +11,6 @@
 int main(int argc, char** argv) {
   CLI::App app{"halfspace: a cycle-approximate hardware rasterizer model", "halfspace"};
   app.set_version_flag("--version", HALFSPACE_VERSION);
-  app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("halfspace: {}; see 'halfspace --help'\n", error.what());
   });
@@ -23,6 +22,9 @@ int main(int argc, char** argv) {
     halfspace::add_diff_command(app, status);
     halfspace::add_bench_command(app, status);
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {  // after parse(), which names a word that is no subcommand
+      throw CLI::RequiredError("A subcommand");
+    }
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   } catch (const std::bad_alloc&) {

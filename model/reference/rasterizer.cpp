@@ -96,8 +96,8 @@ enum class Fate {
   kDrawn
 };  // in rising order: a triangle has the highest of its pieces
 
-/// One piece of a triangle, inside the clip volume.
-Fate draw_piece(const DrawContext& c, const WindowTriangle& t) {
+/// One piece of a triangle, inside the clip volume; largest_depth is that of the whole triangle.
+Fate draw_piece(const DrawContext& c, const WindowTriangle& t, double largest_depth) {
   const int bits = c.options.subpixel_bits;
   Counters& counters = c.surface.counters;
   const GridTriangle snapped = {snap(t[0], bits), snap(t[1], bits), snap(t[2], bits)};
@@ -107,7 +107,7 @@ Fate draw_piece(const DrawContext& c, const WindowTriangle& t) {
   if (c.draw.has(front ? Flag::kCullFront : Flag::kCullBack)) return Fate::kCulled;
 
   const DepthPlane plane = depth_plane(t);
-  const double offset = polygon_offset(plane, t, c.draw, c.storage);
+  const double offset = polygon_offset(plane, largest_depth, c.draw, c.storage);
   const TieRule rule = c.draw.has(Flag::kBottomLeftRule) ? TieRule::kBottomLeft : TieRule::kTopLeft;
   const PixelRect box = intersect(bounding_box(snapped, bits), c.window);
   // Aligned 2x2 blocks: an even corner at or before the box, which lies in the target and so is not negative.
@@ -156,11 +156,14 @@ void draw_triangle(const DrawContext& c, const std::array<glm::vec4, 3>& vertice
     return;
   }
 
+  double largest_depth = 0;
+  for (const Homogeneous& v : polygon) largest_depth = std::max(largest_depth, std::abs(to_window(v, d).z));
+
   // What is left is convex: a fan around its first vertex.
   Fate fate = Fate::kDegenerate;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     fate = std::max(fate, draw_piece(c, {to_window(polygon[0], d), to_window(polygon[i], d),
-                                         to_window(polygon[i + 1], d)}));
+                                         to_window(polygon[i + 1], d)}, largest_depth));
   }
   if (fate == Fate::kDegenerate) ++counters.degenerate;
   if (fate == Fate::kCulled) ++counters.culled;

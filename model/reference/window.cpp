@@ -38,16 +38,13 @@ DepthPlane depth_plane(const WindowTriangle& t) {
   return {t[0].x, t[0].y, t[0].z, (z1 * y2 - z2 * y1) / area, (x1 * z2 - x2 * z1) / area};
 }
 
-double polygon_offset(const DepthPlane& plane, const WindowTriangle& t, const Command& draw,
-                      Storage storage) {
+double polygon_offset(const DepthPlane& plane, double largest_depth, const Command& draw, Storage storage) {
   if (!draw.has(Flag::kPolygonOffset)) return 0;
   const double slope = std::max(std::abs(plane.dzdx), std::abs(plane.dzdy));
   double step = 0;
   if (storage == Storage::kFloat32) {
-    // 2^(e - 23), with e the exponent of the largest depth in the triangle; float32 has 23 bits after the
-    // point.
-    const double largest = std::max({std::abs(t[0].z), std::abs(t[1].z), std::abs(t[2].z)});
-    if (largest > 0) step = std::ldexp(1.0, std::ilogb(largest) - 23);
+    // 2^(e - 23), with e the exponent of the largest depth; float32 has 23 bits after the point.
+    if (largest_depth > 0) step = std::ldexp(1.0, std::ilogb(largest_depth) - 23);
   } else {
     step = std::ldexp(1.0, -unorm_bits(storage));
   }

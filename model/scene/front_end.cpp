@@ -7,7 +7,7 @@
 namespace halfspace {
 namespace {
 
-/// Half a pixel row is left beyond the guard band, so that rounding cannot reach the end of the 16-bit range.
+/// Pixels to each side of the origin of the window; 16 integer bits would hold one more.
 constexpr double kGuardBand = 32767;
 
 bool finite(const glm::vec4& v) {
@@ -95,7 +95,11 @@ void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out, Fr
       ++counters.degenerate;
       return;
     }
-    window.push(to_window(polygon.v[i]));
+    Window v = to_window(polygon.v[i]);
+    // A cut lies on the guard band up to rounding, which for vertices many orders of magnitude apart can be pixels.
+    v.x = std::clamp(v.x, -kGuardBand, kGuardBand);
+    v.y = std::clamp(v.y, -kGuardBand, kGuardBand);
+    window.push(v);
   }
   if (polygon_offset_) {
     const double offset = offset_of(window);

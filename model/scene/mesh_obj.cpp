@@ -7,8 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <istream>
 #include <limits>
-#include <sstream>
+#include <streambuf>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -115,6 +116,15 @@ class ObjCheck {
   std::uint64_t skipped_ = 0;
 };
 
+/// Text as a stream to read from, without a copy.
+class TextBuffer : public std::streambuf {
+ public:
+  explicit TextBuffer(std::string_view text) {
+    char* const begin = const_cast<char*>(text.data());  // the interface's; nothing is written
+    setg(begin, begin, begin + text.size());
+  }
+};
+
 /// What the callbacks build.
 struct Builder {
   std::string_view name;
@@ -165,7 +175,8 @@ Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name) {
   callbacks.vertex_cb = add_vertex;
   callbacks.index_cb = add_face;
   callbacks.usemtl_cb = use_material;
-  std::istringstream stream{std::string(text)};
+  TextBuffer buffer(text);
+  std::istream stream(&buffer);
   std::string error;
   if (!tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error)) {
     throw InputError(fmt::format("{}: not read as OBJ; legal: a Wavefront OBJ file", name));

@@ -81,7 +81,7 @@ void FaultShim::step(bool valid, std::span<const std::uint32_t> payload, bool re
       break;
     case FaultKind::kEarlyValid:
       // Only while the sink stalls: a sink that is ready would take a wrong packet, which is another fault.
-      if (!valid && packet_ == at_ && !ready && !done_) {
+      if (!valid && packet_ >= at_ && !ready && !done_) {
         valid_ = true;
         done_ = true;
       }
