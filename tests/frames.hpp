@@ -16,14 +16,19 @@ constexpr std::uint32_t bits(std::initializer_list<Flag> flags) {
   return all;
 }
 
-/// One square target, cleared to 1, and draws given in window coordinates. The side is a power of two of at most 1024,
-/// so that positions on the grid of 1/256 pixel survive the way through clip space unrounded.
+/// One square target, cleared to 1, and draws given in window coordinates. The side is a power of two of at
+/// most 1024, so that positions on the grid of 1/256 pixel survive the way through clip space unrounded.
 class FrameBuilder {
  public:
   explicit FrameBuilder(std::uint32_t size, DepthFormat format = DepthFormat::kUnorm24) : size_(size) {
     frame.name = "test";
-    frame.targets.push_back({.width = size, .height = size, .samples = 1, .depth_format = format, .color_count = 1,
-                             .presented = true, .depth_surface = 0});
+    frame.targets.push_back({.width = size,
+                             .height = size,
+                             .samples = 1,
+                             .depth_format = format,
+                             .color_count = 1,
+                             .presented = true,
+                             .depth_surface = 0});
     clear(1);
   }
 

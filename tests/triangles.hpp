@@ -30,10 +30,12 @@ inline SetupState open_state(int size, int sub_pixel_bits = 8) {
           .interpolator = DepthInterpolator::kBarycentric};
 }
 
-/// Draws triangles of mixed kinds: any three points, small ones, slivers, vertices on pixel centres, far outside.
+/// Draws triangles of mixed kinds: any three points, small ones, slivers, vertices on pixel centres, far
+/// outside.
 class TriangleSource {
  public:
-  TriangleSource(std::uint64_t seed, int size, int sub_pixel_bits) : random_(seed), size_(size), bits_(sub_pixel_bits) {}
+  TriangleSource(std::uint64_t seed, int size, int sub_pixel_bits)
+      : random_(seed), size_(size), bits_(sub_pixel_bits) {}
 
   ScreenTriangle next(std::uint32_t z_limit = 0x7FFFFF80u) {
     ScreenTriangle t;
@@ -51,10 +53,12 @@ class TriangleSource {
           break;
         case 2:  // a sliver: the third vertex lies next to the line through the others
           v = i < 2 ? ScreenVertex{integer(0, extent), integer(0, extent), 0}
-                    : ScreenVertex{(t.v[0].x + t.v[1].x) / 2 + integer(-3, 3), (t.v[0].y + t.v[1].y) / 2 + integer(-3, 3), 0};
+                    : ScreenVertex{(t.v[0].x + t.v[1].x) / 2 + integer(-3, 3),
+                                   (t.v[0].y + t.v[1].y) / 2 + integer(-3, 3), 0};
           break;
         case 3:  // on pixel centres, so that edges run through samples
-          v = {(integer(0, size_ - 1) << bits_) + (1 << (bits_ - 1)), (integer(0, size_ - 1) << bits_) + (1 << (bits_ - 1)), 0};
+          v = {(integer(0, size_ - 1) << bits_) + (1 << (bits_ - 1)),
+               (integer(0, size_ - 1) << bits_) + (1 << (bits_ - 1)), 0};
           break;
         default: {  // reaches to the guard band
           const int far = 32767 << bits_;

@@ -1,5 +1,5 @@
-/// The subcommands of `halfspace`. Each adds itself to the application; its callback throws InputError or sets
-/// `status`, the exit status of the program.
+/// The subcommands of `halfspace`. Each adds itself to the application; its callback throws InputError or
+/// sets `status`, the exit status of the program.
 #pragma once
 
 namespace CLI {

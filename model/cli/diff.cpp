@@ -11,7 +11,8 @@ namespace halfspace {
 
 void add_diff_command(CLI::App& app, int& status) {
   auto folders = std::make_shared<std::pair<std::string, std::string>>();
-  CLI::App* command = app.add_subcommand("diff", "compare the results of two runs; exit status 1 where they differ");
+  CLI::App* command =
+      app.add_subcommand("diff", "compare the results of two runs; exit status 1 where they differ");
   command->add_option("A", folders->first, "result folder")->required();
   command->add_option("B", folders->second, "result folder")->required();
   command->callback([folders, &status] {

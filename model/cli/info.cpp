@@ -15,20 +15,29 @@ struct InfoOptions {
 };
 
 constexpr const char* kFormatNames[] = {"none", "unorm16", "unorm24", "unorm32", "float32"};
-constexpr const char* kFuncNames[] = {"never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"};
+constexpr const char* kFuncNames[] = {"never",   "less",     "equal",  "lequal",
+                                      "greater", "notequal", "gequal", "always"};
 
 std::string flag_names(const Command& command) {
-  static const std::pair<Flag, const char*> kNames[] = {
-      {Flag::kDepthTest, "depth_test"},           {Flag::kDepthWrite, "depth_write"},
-      {Flag::kDepthClamp, "depth_clamp"},         {Flag::kCullFront, "cull_front"},
-      {Flag::kCullBack, "cull_back"},             {Flag::kBlend, "blend"},
-      {Flag::kShaderDiscards, "shader_discards"}, {Flag::kShaderWritesDepth, "shader_writes_depth"},
-      {Flag::kStencilTest, "stencil_test"},       {Flag::kColorWrite, "color_write"},
-      {Flag::kAlphaToCoverage, "alpha_to_coverage"}, {Flag::kNotFilled, "not_filled"},
-      {Flag::kEarlyTestsForced, "early_tests_forced"}, {Flag::kPolygonOffset, "polygon_offset"},
-      {Flag::kShaderSideEffects, "shader_side_effects"}, {Flag::kClearColor, "clear_color"},
-      {Flag::kClearDepth, "clear_depth"},         {Flag::kClearStencil, "clear_stencil"},
-      {Flag::kBottomLeftRule, "bottom_left_rule"}};
+  static const std::pair<Flag, const char*> kNames[] = {{Flag::kDepthTest, "depth_test"},
+                                                        {Flag::kDepthWrite, "depth_write"},
+                                                        {Flag::kDepthClamp, "depth_clamp"},
+                                                        {Flag::kCullFront, "cull_front"},
+                                                        {Flag::kCullBack, "cull_back"},
+                                                        {Flag::kBlend, "blend"},
+                                                        {Flag::kShaderDiscards, "shader_discards"},
+                                                        {Flag::kShaderWritesDepth, "shader_writes_depth"},
+                                                        {Flag::kStencilTest, "stencil_test"},
+                                                        {Flag::kColorWrite, "color_write"},
+                                                        {Flag::kAlphaToCoverage, "alpha_to_coverage"},
+                                                        {Flag::kNotFilled, "not_filled"},
+                                                        {Flag::kEarlyTestsForced, "early_tests_forced"},
+                                                        {Flag::kPolygonOffset, "polygon_offset"},
+                                                        {Flag::kShaderSideEffects, "shader_side_effects"},
+                                                        {Flag::kClearColor, "clear_color"},
+                                                        {Flag::kClearDepth, "clear_depth"},
+                                                        {Flag::kClearStencil, "clear_stencil"},
+                                                        {Flag::kBottomLeftRule, "bottom_left_rule"}};
   std::string text;
   for (const auto& [flag, name] : kNames) {
     text += command.has(flag) ? fmt::format(" {}", name) : "";
@@ -37,14 +46,19 @@ std::string flag_names(const Command& command) {
 }
 
 void print_command(std::size_t index, const Command& c) {
-  const std::string scissor = fmt::format("{},{} {}x{}", c.scissor.x, c.scissor.y, c.scissor.width, c.scissor.height);
+  const std::string scissor =
+      fmt::format("{},{} {}x{}", c.scissor.x, c.scissor.y, c.scissor.width, c.scissor.height);
   if (c.kind == CommandKind::kClear) {
-    fmt::print("{:>6} clear target {} depth {} rectangle {}{}\n", index, c.target, c.clear_depth, scissor, flag_names(c));
+    fmt::print("{:>6} clear target {} depth {} rectangle {}{}\n", index, c.target, c.clear_depth, scissor,
+               flag_names(c));
     return;
   }
-  fmt::print("{:>6} draw  target {} triangles {} vertices {} func {} viewport {},{} {}x{} scissor {} depth {}..{}{}\n", index,
-             c.target, c.index_count / 3, c.vertex_count, kFuncNames[static_cast<std::size_t>(c.depth_func)], c.viewport.x,
-             c.viewport.y, c.viewport.z, c.viewport.w, scissor, c.depth_range.x, c.depth_range.y, flag_names(c));
+  fmt::print(
+      "{:>6} draw  target {} triangles {} vertices {} func {} viewport {},{} {}x{} scissor {} depth "
+      "{}..{}{}\n",
+      index, c.target, c.index_count / 3, c.vertex_count, kFuncNames[static_cast<std::size_t>(c.depth_func)],
+      c.viewport.x, c.viewport.y, c.viewport.z, c.viewport.w, scissor, c.depth_range.x, c.depth_range.y,
+      flag_names(c));
 }
 
 void info(const InfoOptions& options) {
@@ -55,13 +69,15 @@ void info(const InfoOptions& options) {
     draws += command.kind == CommandKind::kDraw ? 1 : 0;
     triangles += command.kind == CommandKind::kDraw ? command.index_count / 3 : 0;
   }
-  fmt::print("{}: {} targets, {} draws, {} clears, {} triangles, {} vertices\n", frame.name, frame.targets.size(), draws,
-             frame.commands.size() - draws, triangles, frame.vertices.size());
+  fmt::print("{}: {} targets, {} draws, {} clears, {} triangles, {} vertices\n", frame.name,
+             frame.targets.size(), draws, frame.commands.size() - draws, triangles, frame.vertices.size());
   for (std::size_t i = 0; i < frame.targets.size(); ++i) {
     const Target& t = frame.targets[i];
-    const std::string surface = t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
+    const std::string surface =
+        t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
     fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height,
-               kFormatNames[static_cast<std::size_t>(t.depth_format)], surface, t.color_count, t.presented ? " presented" : "");
+               kFormatNames[static_cast<std::size_t>(t.depth_format)], surface, t.color_count,
+               t.presented ? " presented" : "");
   }
   for (std::size_t i = 0; options.commands && i < frame.commands.size(); ++i) {
     print_command(i, frame.commands[i]);

@@ -57,8 +57,10 @@ Config MachineOptions::config() const {
 }
 
 void InputOptions::add_to(CLI::App& command) {
-  command.add_option("INPUT", path, "frame (.ptf, .ptf.gz, .ptf.xz) or mesh (.obj, .ply, .gltf, .glb)")->required();
-  command.add_option("--eye", eye, "mesh: camera position (default: the whole mesh is seen)")->type_name("X,Y,Z");
+  command.add_option("INPUT", path, "frame (.ptf, .ptf.gz, .ptf.xz) or mesh (.obj, .ply, .gltf, .glb)")
+      ->required();
+  command.add_option("--eye", eye, "mesh: camera position (default: the whole mesh is seen)")
+      ->type_name("X,Y,Z");
   command.add_option("--at", at, "mesh: point looked at (default: its middle)")->type_name("X,Y,Z");
   command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")->capture_default_str();
   command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")->type_name("WxH");
@@ -76,7 +78,8 @@ Camera InputOptions::camera() const {
   if (!size.empty()) {
     const std::vector<std::uint32_t> v = parse_list<std::uint32_t>(size, 'x');
     if (v.size() != 2) {
-      throw InputError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size, kMaxTargetSize));
+      throw InputError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size,
+                                   kMaxTargetSize));
     }
     camera.width = v[0];
     camera.height = v[1];

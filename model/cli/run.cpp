@@ -63,13 +63,27 @@ void print_table(const Frame& frame, const FrameResult& result) {
     fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
   };
   fmt::print("{}: {} draws on {} depth surfaces\n", frame.name, result.draws.size(), result.surfaces.size());
-  row("front end", c.front_end.triangles, fmt::format("triangles; {} clipped away, {} cut, {} not finite", c.front_end.clipped_away, c.front_end.clipped, c.front_end.non_finite + c.front_end.degenerate));
-  row("setup", c.setup.drawn, fmt::format("drawn; {} face away, {} without area, {} hit no sample, {} outside", c.setup.culled, c.setup.zero_area, c.setup.no_sample, c.setup.outside));
+  row("front end", c.front_end.triangles,
+      fmt::format("triangles; {} clipped away, {} cut, {} not finite", c.front_end.clipped_away,
+                  c.front_end.clipped, c.front_end.non_finite + c.front_end.degenerate));
+  row("setup", c.setup.drawn,
+      fmt::format("drawn; {} face away, {} without area, {} hit no sample, {} outside", c.setup.culled,
+                  c.setup.zero_area, c.setup.no_sample, c.setup.outside));
   const TileWalkerCounters& w = c.tile_walker;
-  row("tile_walker", c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped, fmt::format("tiles; {} rejected, {} covered whole ({} by their block)", w.tiles_rejected, c.edge_evaluator.tiles_skipped, w.tiles_by_block));
-  row("edge_evaluator", c.edge_evaluator.tiles, fmt::format("tiles evaluated; {} empty, {:.1f}% of edges skipped", c.edge_evaluator.tiles_empty, percent(c.edge_evaluator.edges_skipped, c.edge_evaluator.edges + c.edge_evaluator.edges_skipped)));
-  row("quad_generator", c.quad_generator.quads, fmt::format("quads; {} fragments, {} helpers ({:.1f}% of lanes)", c.quad_generator.fragments, c.quad_generator.helpers, percent(c.quad_generator.helpers, 4 * c.quad_generator.quads)));
-  row("early_z", c.early_z.survivors, fmt::format("fragments survive ({:.1f}%); {} tested, {} written", percent(c.early_z.survivors, c.quad_generator.fragments), c.early_z.tested, c.early_z.written));
+  row("tile_walker", c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped,
+      fmt::format("tiles; {} rejected, {} covered whole ({} by their block)", w.tiles_rejected,
+                  c.edge_evaluator.tiles_skipped, w.tiles_by_block));
+  row("edge_evaluator", c.edge_evaluator.tiles,
+      fmt::format(
+          "tiles evaluated; {} empty, {:.1f}% of edges skipped", c.edge_evaluator.tiles_empty,
+          percent(c.edge_evaluator.edges_skipped, c.edge_evaluator.edges + c.edge_evaluator.edges_skipped)));
+  row("quad_generator", c.quad_generator.quads,
+      fmt::format("quads; {} fragments, {} helpers ({:.1f}% of lanes)", c.quad_generator.fragments,
+                  c.quad_generator.helpers, percent(c.quad_generator.helpers, 4 * c.quad_generator.quads)));
+  row("early_z", c.early_z.survivors,
+      fmt::format("fragments survive ({:.1f}%); {} tested, {} written",
+                  percent(c.early_z.survivors, c.quad_generator.fragments), c.early_z.tested,
+                  c.early_z.written));
   if (result.draws_not_filled != 0) {
     fmt::print("  {} draws skipped: their polygons are drawn as lines or points\n", result.draws_not_filled);
   }
@@ -110,12 +124,20 @@ void add_run_command(CLI::App& app, int& /*status*/) {
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
   options->input.add_to(*command);
   options->machine.add_to(*command);
-  command->add_option("--fidelity", options->fidelity, "how time is had")->check(CLI::IsMember({"functional"}))->capture_default_str();
-  CLI::Option* out = command->add_option("--out", options->out, "folder for results (default: only the table)")->type_name("DIR");
+  command->add_option("--fidelity", options->fidelity, "how time is had")
+      ->check(CLI::IsMember({"functional"}))
+      ->capture_default_str();
+  CLI::Option* out =
+      command->add_option("--out", options->out, "folder for results (default: only the table)")
+          ->type_name("DIR");
   command->add_flag("--quads", options->quads, "record every quad in quads.npy")->needs(out);
-  command->add_flag("--tiles", options->tiles, "record every decision of the walker in tiles.npy")->needs(out);
+  command->add_flag("--tiles", options->tiles, "record every decision of the walker in tiles.npy")
+      ->needs(out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
-  command->add_option("--tile-jobs", options->tile_jobs, "write the tile jobs of the edge evaluator, for its bench")->type_name("FILE");
+  command
+      ->add_option("--tile-jobs", options->tile_jobs,
+                   "write the tile jobs of the edge evaluator, for its bench")
+      ->type_name("FILE");
   command->callback([options] { run(*options); });
 }
 

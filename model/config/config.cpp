@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <toml++/toml.h>
+#include <charconv>
 #include <variant>
 
 #include "halfspace/numerics/error.hpp"
@@ -43,19 +43,25 @@ struct Key {
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> table{
-      {"late_z", "", "draws whose shader may discard, writes depth or has side effects: opaque = test and write, no_write = test only",
+      {"late_z", "",
+       "draws whose shader may discard, writes depth or has side effects: opaque = test and write, no_write "
+       "= test only",
        NamedValues<LateZ>{&Config::late_z, {"opaque", "no_write"}}},
       {"raster.sub_pixel_bits", "bits", "fraction bits of a snapped window coordinate",
        IntegerRange{&Config::sub_pixel_bits, 4, 8}},
       {"walker.tile_size", "pixels", "side of the tile that the edge evaluator takes in one step",
        IntegerChoice{&Config::tile_size, {4, 8, 16}}},
-      {"walker.block_size", "pixels", "side of the block that the walker decides before its tiles; larger than a tile",
+      {"walker.block_size", "pixels",
+       "side of the block that the walker decides before its tiles; larger than a tile",
        IntegerChoice{&Config::block_size, {8, 16, 32, 64}}},
       {"walker.block_level", "", "decide whole blocks first; off: every tile of the bounds is decided",
        Switch{&Config::block_level}},
-      {"walker.trivial_reject", "", "drop blocks and tiles that are outside one edge", Switch{&Config::trivial_reject}},
-      {"walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside", Switch{&Config::trivial_accept}},
-      {"depth.interpolator", "", "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers",
+      {"walker.trivial_reject", "", "drop blocks and tiles that are outside one edge",
+       Switch{&Config::trivial_reject}},
+      {"walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside",
+       Switch{&Config::trivial_accept}},
+      {"depth.interpolator", "",
+       "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers",
        NamedValues<DepthInterpolator>{&Config::interpolator, {"plane", "barycentric"}}},
   };
   return table;
@@ -64,10 +70,16 @@ const std::vector<Key>& keys() {
 std::string legal_values(const Key& key) {
   struct Describe {
     std::string operator()(const IntegerRange& r) const { return fmt::format("{} to {}", r.least, r.most); }
-    std::string operator()(const IntegerChoice& c) const { return fmt::format("{}", fmt::join(c.values, ", ")); }
+    std::string operator()(const IntegerChoice& c) const {
+      return fmt::format("{}", fmt::join(c.values, ", "));
+    }
     std::string operator()(const Switch&) const { return "true, false"; }
-    std::string operator()(const NamedValues<DepthInterpolator>& n) const { return fmt::format("{}", fmt::join(n.names, ", ")); }
-    std::string operator()(const NamedValues<LateZ>& n) const { return fmt::format("{}", fmt::join(n.names, ", ")); }
+    std::string operator()(const NamedValues<DepthInterpolator>& n) const {
+      return fmt::format("{}", fmt::join(n.names, ", "));
+    }
+    std::string operator()(const NamedValues<LateZ>& n) const {
+      return fmt::format("{}", fmt::join(n.names, ", "));
+    }
   };
   return std::visit(Describe{}, key.kind);
 }
@@ -81,7 +93,9 @@ std::string value_text(const Key& key, const Config& config) {
     std::string operator()(const NamedValues<DepthInterpolator>& n) const {
       return n.names[static_cast<std::size_t>(config.*n.member)];
     }
-    std::string operator()(const NamedValues<LateZ>& n) const { return n.names[static_cast<std::size_t>(config.*n.member)]; }
+    std::string operator()(const NamedValues<LateZ>& n) const {
+      return n.names[static_cast<std::size_t>(config.*n.member)];
+    }
   };
   return std::visit(Print{config}, key.kind);
 }
@@ -180,7 +194,8 @@ std::vector<ConfigKey> config_keys(const Config& config) {
 void set_config(Config& config, std::string_view key, std::string_view value) {
   const Key& found = find_key(key);
   if (!std::visit(Assign{config, value}, found.kind)) {
-    throw InputError(fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_values(found)));
+    throw InputError(
+        fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_values(found)));
   }
 }
 
@@ -197,7 +212,8 @@ Config read_config(const std::filesystem::path& path) {
   try {
     apply_table(config, toml::parse_file(path.string()), "");
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
+    throw InputError(
+        fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
@@ -206,8 +222,9 @@ Config read_config(const std::filesystem::path& path) {
 
 void validate(const Config& config) {
   if (config.block_size <= config.tile_size) {
-    throw InputError(fmt::format("configuration key 'walker.block_size' is {}; legal: larger than 'walker.tile_size' ({})",
-                                 config.block_size, config.tile_size));
+    throw InputError(
+        fmt::format("configuration key 'walker.block_size' is {}; legal: larger than 'walker.tile_size' ({})",
+                    config.block_size, config.tile_size));
   }
 }
 
@@ -222,7 +239,8 @@ std::string to_toml(const Config& config) {
       section = in;
     }
     const std::string value = value_text(key, config);
-    text += fmt::format("# {}{} ({})\n", key.help, key.unit.empty() ? "" : ", in " + key.unit, legal_values(key));
+    text +=
+        fmt::format("# {}{} ({})\n", key.help, key.unit.empty() ? "" : ", in " + key.unit, legal_values(key));
     text += fmt::format("{} = {}\n", dot == std::string::npos ? key.name : key.name.substr(dot + 1),
                         is_text(key) ? '"' + value + '"' : value);
   }

@@ -30,11 +30,11 @@ struct Config {
 
 /// One key as a user sees it.
 struct ConfigKey {
-  std::string name;    ///< section.key, as in TOML and --set
-  std::string value;   ///< of the configuration asked about
-  std::string legal;   ///< for people: "4 to 8", "plane or barycentric"
-  std::string unit;    ///< empty where there is none
-  std::string help;    ///< one line
+  std::string name;   ///< section.key, as in TOML and --set
+  std::string value;  ///< of the configuration asked about
+  std::string legal;  ///< for people: "4 to 8", "plane or barycentric"
+  std::string unit;   ///< empty where there is none
+  std::string help;   ///< one line
 };
 
 /// Every key in the order of the reference, with its value in `config`.

@@ -12,7 +12,16 @@ namespace halfspace {
 enum class DepthFormat : std::uint32_t { kNone = 0, kUnorm16 = 1, kUnorm24 = 2, kUnorm32 = 3, kFloat32 = 4 };
 
 /// Depth comparison "incoming OP stored", numbered as in Vulkan.
-enum class DepthFunc : std::uint32_t { kNever, kLess, kEqual, kLequal, kGreater, kNotEqual, kGequal, kAlways };
+enum class DepthFunc : std::uint32_t {
+  kNever,
+  kLess,
+  kEqual,
+  kLequal,
+  kGreater,
+  kNotEqual,
+  kGequal,
+  kAlways
+};
 
 /// Vertex depths of unorm surfaces carry this many bits: the stored code and, below it, a fraction.
 inline constexpr int kVertexDepthBits = 31;

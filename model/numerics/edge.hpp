@@ -8,12 +8,12 @@
 
 namespace halfspace {
 
-/// floor(e / 2^sub_pixel_bits). At pixel centres E is the same modulo 2^sub_pixel_bits all along an edge, so the
-/// low bits never decide coverage.
+/// floor(e / 2^sub_pixel_bits). At pixel centres E is the same modulo 2^sub_pixel_bits all along an edge, so
+/// the low bits never decide coverage.
 constexpr std::int64_t drop_sub_pixel(std::int64_t e, int sub_pixel_bits) { return e >> sub_pixel_bits; }
 
-/// Largest magnitude that is kept of an edge value inside a tile: more than |a| + |b| can add up to across it.
-/// It depends on the tile only; every sub-pixel precision fits the widest steps.
+/// Largest magnitude that is kept of an edge value inside a tile: more than |a| + |b| can add up to across
+/// it. It depends on the tile only; every sub-pixel precision fits the widest steps.
 template <int TileSize>
 constexpr std::int32_t local_edge_limit() {
   constexpr int kStepBits = Widths{.SubPixelBits = 8, .TileSize = TileSize}.StepBits;

@@ -162,8 +162,10 @@ void draw_triangle(const DrawContext& c, const std::array<glm::vec4, 3>& vertice
   // What is left is convex: a fan around its first vertex.
   Fate fate = Fate::kDegenerate;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    fate = std::max(fate, draw_piece(c, {to_window(polygon[0], d), to_window(polygon[i], d),
-                                         to_window(polygon[i + 1], d)}, largest_depth));
+    fate = std::max(
+        fate,
+        draw_piece(c, {to_window(polygon[0], d), to_window(polygon[i], d), to_window(polygon[i + 1], d)},
+                   largest_depth));
   }
   if (fate == Fate::kDegenerate) ++counters.degenerate;
   if (fate == Fate::kCulled) ++counters.culled;

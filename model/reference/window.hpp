@@ -42,8 +42,9 @@ struct DepthPlane {
 [[nodiscard]] DepthPlane depth_plane(const WindowTriangle& t);
 
 /// The polygon offset of `draw` (Vulkan 1.3, "Depth Bias"; OpenGL 4.6, 14.6.5): m * factor + r * units,
-/// clamped, where m is the larger slope and r the smallest step of depth that the format resolves. For float32
-/// that depends on the largest magnitude of depth in the whole primitive, not in a piece that clipping left.
+/// clamped, where m is the larger slope and r the smallest step of depth that the format resolves. For
+/// float32 that depends on the largest magnitude of depth in the whole primitive, not in a piece that
+/// clipping left.
 [[nodiscard]] double polygon_offset(const DepthPlane& plane, double largest_depth, const Command& draw,
                                     Storage storage);
 

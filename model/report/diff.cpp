@@ -33,7 +33,8 @@ std::vector<Field> parse_descr(const std::string& descr, const std::string& file
   std::vector<Field> fields;
   std::size_t offset = 0;
   const auto add = [&](std::string name, const std::string& type, std::size_t count) {
-    if (type.size() != 3 || (type[1] != 'u' && type[1] != 'f') || std::strchr("1248", type[2]) == nullptr || count == 0) {
+    if (type.size() != 3 || (type[1] != 'u' && type[1] != 'f') || std::strchr("1248", type[2]) == nullptr ||
+        count == 0) {
       throw InputError(fmt::format("{}: dtype {} is not one that a run writes", file, descr));
     }
     const auto size = static_cast<std::size_t>(type[2] - '0');
@@ -50,7 +51,8 @@ std::vector<Field> parse_descr(const std::string& descr, const std::string& file
     at = end + 1;
     if (quoted.size() % 2 == 0) {
       const bool repeated = descr.compare(at, 2, ",(") == 0;
-      add(quoted[quoted.size() - 2], quoted.back(), repeated ? std::strtoul(descr.c_str() + at + 2, nullptr, 10) : 1);
+      add(quoted[quoted.size() - 2], quoted.back(),
+          repeated ? std::strtoul(descr.c_str() + at + 2, nullptr, 10) : 1);
     }
   }
   if (quoted.size() == 1) {
@@ -78,14 +80,16 @@ std::string value_text(const Field& field, const std::byte* record, std::size_t 
 std::string identity(const std::vector<Field>& fields, const std::byte* record) {
   std::string text;
   for (const Field& field : fields) {
-    if (field.name == "draw" || field.name == "triangle" || field.name == "x" || field.name == "y" || field.name == "size") {
+    if (field.name == "draw" || field.name == "triangle" || field.name == "x" || field.name == "y" ||
+        field.name == "size") {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.name, value_text(field, record, 0));
     }
   }
   return text;
 }
 
-std::string place(const NpyArray& array, const std::vector<Field>& fields, std::size_t index, const std::byte* record) {
+std::string place(const NpyArray& array, const std::vector<Field>& fields, std::size_t index,
+                  const std::byte* record) {
   if (array.shape.size() == 2) {
     return fmt::format("pixel ({}, {})", index % array.shape[1], index / array.shape[1]);
   }
@@ -111,8 +115,8 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
   const std::size_t size = fields.back().offset + fields.back().size * fields.back().count;
   for (const auto& [array, path] : {std::pair{&a, &a_path}, std::pair{&b, &b_path}}) {
     if (array->data.size() != size * element_count(*array)) {
-      throw InputError(fmt::format("{}: holds {} bytes, not the {} elements of {} bytes of its header", path->string(),
-                                   array->data.size(), element_count(*array), size));
+      throw InputError(fmt::format("{}: holds {} bytes, not the {} elements of {} bytes of its header",
+                                   path->string(), array->data.size(), element_count(*array), size));
     }
   }
   const std::size_t common = std::min(a.data.size(), b.data.size()) / size;
@@ -142,8 +146,9 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
     const std::size_t more = std::max(a.data.size(), b.data.size()) / size - common;
     const NpyArray& longer = a.data.size() > b.data.size() ? a : b;
     if (difference.count == 0) {
-      difference.first = fmt::format("{} is only in {}", place(longer, fields, common, longer.data.data() + common * size),
-                                     &longer == &a ? "the first" : "the second");
+      difference.first =
+          fmt::format("{} is only in {}", place(longer, fields, common, longer.data.data() + common * size),
+                      &longer == &a ? "the first" : "the second");
     }
     difference.count += more;
   }
@@ -153,10 +158,10 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
 Json read_stats(const fs::path& folder) {
   std::ifstream file(folder / kStatsFile);
   Json stats = Json::parse(file, nullptr, false);
-  if (!stats.is_object() || stats.value("schema", "") != kStatsSchema || stats.value("schema_version", 0) != kStatsSchemaVersion ||
-      !stats["files"].is_array()) {
-    throw InputError(fmt::format("{}: is not the result of a run (no {} of schema {} version {})", folder.string(), kStatsFile,
-                                 kStatsSchema, kStatsSchemaVersion));
+  if (!stats.is_object() || stats.value("schema", "") != kStatsSchema ||
+      stats.value("schema_version", 0) != kStatsSchemaVersion || !stats["files"].is_array()) {
+    throw InputError(fmt::format("{}: is not the result of a run (no {} of schema {} version {})",
+                                 folder.string(), kStatsFile, kStatsSchema, kStatsSchemaVersion));
   }
   return stats;
 }
@@ -169,7 +174,9 @@ std::optional<FileDifference> compare_stats(const Json& a, const Json& b) {
       const std::string path = step["path"].get<std::string>();
       if (count++ == 0) {
         const Json::json_pointer at(path);
-        const auto text = [&](const Json& json) { return json.contains(at) ? json[at].dump() : std::string("nothing"); };
+        const auto text = [&](const Json& json) {
+          return json.contains(at) ? json[at].dump() : std::string("nothing");
+        };
         first = fmt::format("{}{}: {} and {}", part, path, text(a[part]), text(b[part]));
       }
     }
@@ -198,7 +205,8 @@ ResultDifference compare_results(const fs::path& a, const fs::path& b) {
   const std::set<std::string> a_files = arrays_of(a_stats);
   const std::set<std::string> b_files = arrays_of(b_stats);
   ResultDifference result;
-  std::set_intersection(a_files.begin(), a_files.end(), b_files.begin(), b_files.end(), std::back_inserter(result.compared));
+  std::set_intersection(a_files.begin(), a_files.end(), b_files.begin(), b_files.end(),
+                        std::back_inserter(result.compared));
   std::set_symmetric_difference(a_files.begin(), a_files.end(), b_files.begin(), b_files.end(),
                                 std::back_inserter(result.only_in_one));
   std::stable_sort(result.compared.begin(), result.compared.end(),

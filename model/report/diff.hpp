@@ -16,13 +16,14 @@ struct FileDifference {
 };
 
 struct ResultDifference {
-  std::vector<FileDifference> files;        ///< only those that differ, packets first
+  std::vector<FileDifference> files;  ///< only those that differ, packets first
   std::vector<std::string> compared;
-  std::vector<std::string> only_in_one;     ///< not compared: the other run did not write it
+  std::vector<std::string> only_in_one;  ///< not compared: the other run did not write it
 };
 
-/// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters in stats.json (not configuration,
-/// tool versions and pictures). Throws InputError where a folder is not a result or a file is damaged.
+/// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters in stats.json (not
+/// configuration, tool versions and pictures). Throws InputError where a folder is not a result or a file is
+/// damaged.
 ResultDifference compare_results(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace halfspace

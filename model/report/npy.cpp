@@ -57,7 +57,8 @@ std::vector<std::uint64_t> parse_shape(const std::string& text) {
 
 }  // namespace
 
-NpyWriter::NpyWriter(std::filesystem::path path, std::string descr, std::size_t record_size, std::string shape_tail)
+NpyWriter::NpyWriter(std::filesystem::path path, std::string descr, std::size_t record_size,
+                     std::string shape_tail)
     : path_(std::move(path)),
       descr_(std::move(descr)),
       record_size_(record_size),
@@ -68,8 +69,8 @@ NpyWriter::NpyWriter(std::filesystem::path path, std::string descr, std::size_t 
 
 void NpyWriter::write_header(std::uint64_t count) {
   // A fixed width for the count keeps the header's size, so that finish() can write it again.
-  std::string dictionary =
-      fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({:<20},{}), }}", descr_, count, shape_tail_);
+  std::string dictionary = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({:<20},{}), }}",
+                                       descr_, count, shape_tail_);
   const std::size_t total = (kDictionaryAt + dictionary.size() + 1 + 63) / 64 * 64;
   dictionary.resize(total - kDictionaryAt - 1, ' ');
   dictionary += '\n';

@@ -1,4 +1,5 @@
-/// NumPy's .npy files, version 1.0 (numpy.lib.format): the arrays and record streams of a run, and their reader.
+/// NumPy's .npy files, version 1.0 (numpy.lib.format): the arrays and record streams of a run, and their
+/// reader.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +12,14 @@
 
 namespace halfspace {
 
-/// Writes a file record by record; the length is filled in by finish(). Throws InputError when the disk does not take it.
+/// Writes a file record by record; the length is filled in by finish(). Throws InputError when the disk does
+/// not take it.
 class NpyWriter {
  public:
-  /// `descr` is the Python literal of the dtype, `record_size` its size in bytes; `shape_tail` are the dimensions after
-  /// the first, as in ", 1920".
-  NpyWriter(std::filesystem::path path, std::string descr, std::size_t record_size, std::string shape_tail = "");
+  /// `descr` is the Python literal of the dtype, `record_size` its size in bytes; `shape_tail` are the
+  /// dimensions after the first, as in ", 1920".
+  NpyWriter(std::filesystem::path path, std::string descr, std::size_t record_size,
+            std::string shape_tail = "");
 
   /// Appends whole records.
   void append(std::span<const std::byte> bytes);
@@ -37,12 +40,13 @@ class NpyWriter {
 
 /// An array in memory, as it stands in the file.
 struct NpyArray {
-  std::string descr;                 ///< Python literal, without spaces
+  std::string descr;  ///< Python literal, without spaces
   std::vector<std::uint64_t> shape;
-  std::vector<std::byte> data;       ///< row order
+  std::vector<std::byte> data;  ///< row order
 };
 
-/// Reads a file, packed or not (scene/byte_source.hpp). Throws InputError when it is not an .npy file in row order.
+/// Reads a file, packed or not (scene/byte_source.hpp). Throws InputError when it is not an .npy file in row
+/// order.
 NpyArray read_npy(const std::filesystem::path& path);
 
 }  // namespace halfspace

@@ -47,16 +47,18 @@ OutputFolder::OutputFolder(const fs::path& place) : place_(fs::absolute(place).l
     throw InputError(fmt::format("{}: is a file; the output must be a folder", place.string()));
   }
   if (fs::is_directory(place_, error) && !fs::is_empty(place_, error) && !is_result(place_)) {
-    throw InputError(fmt::format("{}: holds files that are not of an earlier run; name a new or an empty folder", place.string()));
+    throw InputError(fmt::format(
+        "{}: holds files that are not of an earlier run; name a new or an empty folder", place.string()));
   }
   fs::create_directories(place_.parent_path(), error);
-  std::string pattern = (place_.parent_path() / fmt::format(".{}.XXXXXX", place_.filename().string())).string();
+  std::string pattern =
+      (place_.parent_path() / fmt::format(".{}.XXXXXX", place_.filename().string())).string();
   if (mkdtemp(pattern.data()) == nullptr) {
     throw InputError(fmt::format("{}: cannot be made: {}", place.string(), std::strerror(errno)));
   }
   staging_ = pattern;
-  fs::permissions(staging_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
-                                fs::perms::others_exec);
+  fs::permissions(staging_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                                fs::perms::others_read | fs::perms::others_exec);
 }
 
 OutputFolder::~OutputFolder() {
@@ -70,7 +72,8 @@ fs::path OutputFolder::file(const std::string& name) {
 }
 
 void OutputFolder::commit() {
-  // Exchanging is one step for anybody who looks; what was there before is then removed under the staging name.
+  // Exchanging is one step for anybody who looks; what was there before is then removed under the staging
+  // name.
   const bool replace = fs::exists(place_);
   const unsigned flags = replace ? RENAME_EXCHANGE : RENAME_NOREPLACE;
   if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, place_.c_str(), flags) != 0) {

@@ -7,8 +7,9 @@
 
 namespace halfspace {
 
-/// Files are written to a hidden folder beside the final one, which commit() puts in place. Without commit() nothing is
-/// left behind. An earlier result at the place is replaced as a whole; a folder that holds anything else is refused.
+/// Files are written to a hidden folder beside the final one, which commit() puts in place. Without commit()
+/// nothing is left behind. An earlier result at the place is replaced as a whole; a folder that holds
+/// anything else is refused.
 class OutputFolder {
  public:
   /// Throws InputError when the place cannot be written or holds other files.

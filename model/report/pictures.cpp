@@ -20,13 +20,20 @@ using Rgb = std::array<std::uint8_t, 3>;
 constexpr Rgb kBackground{24, 26, 32};
 
 Rgb to_rgb(const glm::vec3& color) {
-  const auto channel = [](float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255)); };
+  const auto channel = [](float value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));
+  };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
 /// From dark blue over red and yellow to white, for t in [0, 1].
 glm::vec3 heat(float t) {
-  static const std::array<glm::vec3, 6> kStops{{{0.05f, 0.05f, 0.15f}, {0.15f, 0.2f, 0.6f}, {0.6f, 0.15f, 0.55f}, {0.95f, 0.35f, 0.2f}, {1.0f, 0.8f, 0.25f}, {1.0f, 1.0f, 0.95f}}};
+  static const std::array<glm::vec3, 6> kStops{{{0.05f, 0.05f, 0.15f},
+                                                {0.15f, 0.2f, 0.6f},
+                                                {0.6f, 0.15f, 0.55f},
+                                                {0.95f, 0.35f, 0.2f},
+                                                {1.0f, 0.8f, 0.25f},
+                                                {1.0f, 1.0f, 0.95f}}};
   const float at = std::clamp(t, 0.0f, 1.0f) * (kStops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   return glm::mix(kStops[stop], kStops[stop + 1], at - static_cast<float>(stop));
@@ -61,7 +68,8 @@ glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t tri
   const float aspect = std::abs(draw.viewport.z / draw.viewport.w);
   std::array<glm::vec3, 3> v;
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::vec4& p = frame.vertices[std::size_t{draw.first_vertex} + frame.indices[std::size_t{triangle} * 3 + i]];
+    const glm::vec4& p =
+        frame.vertices[std::size_t{draw.first_vertex} + frame.indices[std::size_t{triangle} * 3 + i]];
     v[i] = {p.x * kTangent * aspect, p.y * kTangent * (draw.viewport.w < 0 ? 1.0f : -1.0f), -p.w};
   }
   const bool orthographic = v[0].z == v[1].z && v[1].z == v[2].z;
@@ -120,7 +128,8 @@ Picture depth_picture(const Surface& surface) {
     if (code == far || sorted.empty()) {
       return kBackground;
     }
-    const auto rank = static_cast<float>(std::lower_bound(sorted.begin(), sorted.end(), code) - sorted.begin());
+    const auto rank =
+        static_cast<float>(std::lower_bound(sorted.begin(), sorted.end(), code) - sorted.begin());
     return to_rgb(glm::vec3(0.1f + 0.9f * (1 - rank / static_cast<float>(sorted.size()))));
   });
 }
@@ -144,7 +153,8 @@ Picture overdraw_picture(const Surface& surface) {
 Picture tile_picture(const Surface& surface, const CellMap<TileDecisions>& map, int tile_size) {
   return paint(surface, [&](int x, int y) {
     const auto column = static_cast<std::size_t>(x / tile_size);
-    const TileDecisions& cell = map.cells[static_cast<std::size_t>(y / tile_size) * static_cast<std::size_t>(map.columns) + column];
+    const TileDecisions& cell =
+        map.cells[static_cast<std::size_t>(y / tile_size) * static_cast<std::size_t>(map.columns) + column];
     const auto all = static_cast<float>(cell.rejected + cell.accepted + cell.partial);
     if (all == 0) {
       return Rgb{};
@@ -156,7 +166,9 @@ Picture tile_picture(const Surface& surface, const CellMap<TileDecisions>& map, 
 
 Picture quad_picture(const Surface& surface, const CellMap<QuadLanes>& map) {
   return paint(surface, [&](int x, int y) {
-    const QuadLanes& cell = map.cells[static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(x / 2)];
+    const QuadLanes& cell =
+        map.cells[static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(map.columns) +
+                  static_cast<std::size_t>(x / 2)];
     if (cell.quads == 0) {
       return Rgb{};
     }

@@ -23,7 +23,8 @@ struct TileRecord {
 #pragma pack(pop)
 
 constexpr const char* kQuadDescr =
-    "[('draw','<u4'),('triangle','<u4'),('surface','<u4'),('x','<u4'),('y','<u4'),('mask','|u1'),('passed','|u1'),"
+    "[('draw','<u4'),('triangle','<u4'),('surface','<u4'),('x','<u4'),('y','<u4'),('mask','|u1'),('passed','|"
+    "u1'),"
     "('depth','<u4',(4,)),('cycle','<u8')]";
 constexpr const char* kTileDescr =
     "[('draw','<u4'),('triangle','<u4'),('x','<u4'),('y','<u4'),('size','<u4'),('verdict','|u1')]";
@@ -65,13 +66,21 @@ void Recorder::quad(const QuadEvent& event) {
   }
   if (quads_) {
     const auto& z = event.depth;
-    append(*quads_, QuadRecord{event.draw, event.triangle, event.surface, event.x, event.y, event.mask, event.passed,
-                               {z[0], z[1], z[2], z[3]}, 0});
+    append(*quads_, QuadRecord{event.draw,
+                               event.triangle,
+                               event.surface,
+                               event.x,
+                               event.y,
+                               event.mask,
+                               event.passed,
+                               {z[0], z[1], z[2], z[3]},
+                               0});
   }
 }
 
 void Recorder::decision(const DecisionEvent& event) {
-  const bool undecided_block = event.verdict == TileVerdict::kPartial && event.size != static_cast<std::uint32_t>(tile_size_);
+  const bool undecided_block =
+      event.verdict == TileVerdict::kPartial && event.size != static_cast<std::uint32_t>(tile_size_);
   if (sums_ && event.surface != kNoSurface && !undecided_block) {
     count_decision(event);
   }
@@ -84,8 +93,10 @@ void Recorder::decision(const DecisionEvent& event) {
 void Recorder::count_decision(const DecisionEvent& event) {
   CellMap<TileDecisions>& map = decisions[event.surface];
   const auto tile = static_cast<std::uint32_t>(tile_size_);
-  const std::uint32_t last_column = std::min((event.x + event.size) / tile, static_cast<std::uint32_t>(map.columns));
-  const std::uint32_t last_row = std::min((event.y + event.size) / tile, static_cast<std::uint32_t>(map.rows));
+  const std::uint32_t last_column =
+      std::min((event.x + event.size) / tile, static_cast<std::uint32_t>(map.columns));
+  const std::uint32_t last_row =
+      std::min((event.y + event.size) / tile, static_cast<std::uint32_t>(map.rows));
   for (std::uint32_t row = event.y / tile; row < last_row; ++row) {
     for (std::uint32_t column = event.x / tile; column < last_column; ++column) {
       TileDecisions& cell = map.at(column, row);

@@ -45,9 +45,9 @@ struct QuadLanes {
 class Recorder : public PacketObserver {
  public:
   struct Options {
-    std::optional<std::filesystem::path> quads;      ///< file to write
-    std::optional<std::filesystem::path> tiles;      ///< file to write
-    bool sums = false;                               ///< for the pictures
+    std::optional<std::filesystem::path> quads;  ///< file to write
+    std::optional<std::filesystem::path> tiles;  ///< file to write
+    bool sums = false;                           ///< for the pictures
   };
 
   Recorder(const Frame& frame, int tile_size, const Options& options);

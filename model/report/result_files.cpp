@@ -11,7 +11,8 @@ namespace {
 
 /// Writes an image with value(x, y) at each pixel.
 template <class Value, class Get>
-void write_array(const std::filesystem::path& path, const char* descr, int width, int height, const Get& value) {
+void write_array(const std::filesystem::path& path, const char* descr, int width, int height,
+                 const Get& value) {
   NpyWriter writer(path, descr, sizeof(Value) * static_cast<std::size_t>(width), fmt::format(" {}", width));
   std::vector<Value> row(static_cast<std::size_t>(width));
   for (int y = 0; y < height; ++y) {
@@ -36,8 +37,8 @@ void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t numb
 
 }  // namespace
 
-void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, const std::string& fidelity,
-                        const FrameResult& result, const Recorder& recorder) {
+void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config,
+                        const std::string& fidelity, const FrameResult& result, const Recorder& recorder) {
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
     if (surface.codes.empty()) {

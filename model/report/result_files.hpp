@@ -13,8 +13,9 @@
 namespace halfspace {
 
 /// Writes depth<S>.npy, fragments<S>.npy and survivors<S>.npy of every surface, shaded<S>.png, depth<S>.png,
-/// overdraw<S>.png, tiles<S>.png and quads<S>.png where `recorder` kept the sums, and stats.json. Throws InputError.
-void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, const std::string& fidelity,
-                        const FrameResult& result, const Recorder& recorder);
+/// overdraw<S>.png, tiles<S>.png and quads<S>.png where `recorder` kept the sums, and stats.json. Throws
+/// InputError.
+void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config,
+                        const std::string& fidelity, const FrameResult& result, const Recorder& recorder);
 
 }  // namespace halfspace

@@ -19,7 +19,8 @@ Json counters_json(const Counters& counters) {
   Counters::units([&](const char* unit_name, auto unit) {
     using Unit = std::remove_cvref_t<decltype(counters.*unit)>;
     Json& group = json[unit_name];
-    Unit::fields([&](const char* name, const char* /*help*/, auto member) { group[name] = counters.*unit.*member; });
+    Unit::fields(
+        [&](const char* name, const char* /*help*/, auto member) { group[name] = counters.*unit.*member; });
   });
   return json;
 }
@@ -39,8 +40,9 @@ const char* format_name(DepthFormat format) {
 
 }  // namespace
 
-void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config, const std::string& fidelity,
-                 const FrameResult& result, const std::vector<std::string>& files) {
+void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
+                 const std::string& fidelity, const FrameResult& result,
+                 const std::vector<std::string>& files) {
   Json json;
   json["schema"] = kStatsSchema;
   json["schema_version"] = kStatsSchemaVersion;

@@ -6,7 +6,8 @@
 
 namespace halfspace {
 
-/// A convex polygon. A triangle cut by the six planes of a clip volume and the two depth limits has at most 11 corners.
+/// A convex polygon. A triangle cut by the six planes of a clip volume and the two depth limits has at most
+/// 11 corners.
 template <class Vertex>
 struct Polygon {
   std::array<Vertex, 11> v;
@@ -15,8 +16,9 @@ struct Polygon {
   void push(const Vertex& vertex) { v[size++] = vertex; }
 };
 
-/// Where the line from a to b meets the plane, given the distances of both, which differ in sign. Swapping a and b or
-/// turning the plane over gives the same result to the bit, so polygons that share an edge share the cut.
+/// Where the line from a to b meets the plane, given the distances of both, which differ in sign. Swapping a
+/// and b or turning the plane over gives the same result to the bit, so polygons that share an edge share the
+/// cut.
 template <class Vertex>
 Vertex cut(const Vertex& a, double distance_a, const Vertex& b, double distance_b) {
   return (a * distance_b - b * distance_a) / (distance_b - distance_a);

@@ -1,5 +1,6 @@
-/// A frame: the draws and clears of one frame of a program, in order, with the state that decides coverage and
-/// depth, and clip-space positions. It mirrors the PTF1 file format (docs/guides/frames.md); a mesh becomes one too.
+/// A frame: the draws and clears of one frame of a program, in order, with the state that decides coverage
+/// and depth, and clip-space positions. It mirrors the PTF1 file format (docs/guides/frames.md); a mesh
+/// becomes one too.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +45,7 @@ inline constexpr std::uint32_t kMaxTargetSize = 16384;  ///< pixels on a side
 
 /// A render target. Targets with the same depth_surface share one depth buffer.
 struct Target {
-  std::uint32_t width = 0;   ///< 1 to kMaxTargetSize pixels
+  std::uint32_t width = 0;  ///< 1 to kMaxTargetSize pixels
   std::uint32_t height = 0;
   std::uint32_t samples = 1;
   DepthFormat depth_format = DepthFormat::kNone;
@@ -72,7 +73,7 @@ struct Command {
   std::uint32_t index_count = 0;  ///< a multiple of 3
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;
-  glm::vec4 viewport{0};     ///< x, y, width, height in pixels; the height is negative for y-up programs
+  glm::vec4 viewport{0};        ///< x, y, width, height in pixels; the height is negative for y-up programs
   glm::vec2 depth_range{0, 1};  ///< near, far
   float clear_depth = 1;
   float offset_factor = 0;

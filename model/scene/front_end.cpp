@@ -62,7 +62,8 @@ ScreenVertex FrontEnd::snap(const Window& v) const {
   return out;
 }
 
-void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const {
+void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
+                       FrontEndCounters& counters) const {
   ++counters.triangles;
   Polygon<Clip> polygon;
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -96,7 +97,8 @@ void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out, Fr
       return;
     }
     Window v = to_window(polygon.v[i]);
-    // A cut lies on the guard band up to rounding, which for vertices many orders of magnitude apart can be pixels.
+    // A cut lies on the guard band up to rounding, which for vertices many orders of magnitude apart can be
+    // pixels.
     v.x = std::clamp(v.x, -kGuardBand, kGuardBand);
     v.y = std::clamp(v.y, -kGuardBand, kGuardBand);
     window.push(v);
@@ -140,8 +142,8 @@ double FrontEnd::offset_of(const Polygon<Window>& polygon) const {
   return clamp > 0 ? std::min(offset, clamp) : clamp < 0 ? std::max(offset, clamp) : offset;
 }
 
-/// Depth clamp acts on fragments: a triangle that leaves the range bends where it does. Its parts beyond are cut off
-/// and laid flat onto the limit, which gives every fragment the clamped depth of the original plane.
+/// Depth clamp acts on fragments: a triangle that leaves the range bends where it does. Its parts beyond are
+/// cut off and laid flat onto the limit, which gives every fragment the clamped depth of the original plane.
 void FrontEnd::emit_within_depth_range(const Polygon<Window>& polygon, std::uint32_t index,
                                        std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const {
   const auto below = [&](const Window& v) { return z_least_ - v.z; };

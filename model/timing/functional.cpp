@@ -10,7 +10,8 @@
 namespace halfspace {
 namespace {
 
-/// Triangles that pass from the front end to setup in one go: enough to amortise, few enough to stay in the cache.
+/// Triangles that pass from the front end to setup in one go: enough to amortise, few enough to stay in the
+/// cache.
 constexpr std::uint32_t kBatch = 256;
 
 /// scissor and target, in pixels.
@@ -27,8 +28,8 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
 /// A draw whose fragments only the shader can judge, so that hardware tests them after it.
 bool tests_late(const Command& draw) {
   return !draw.has(Flag::kEarlyTestsForced) &&
-         (draw.has(Flag::kShaderDiscards) || draw.has(Flag::kShaderWritesDepth) || draw.has(Flag::kShaderSideEffects) ||
-          draw.has(Flag::kAlphaToCoverage));
+         (draw.has(Flag::kShaderDiscards) || draw.has(Flag::kShaderWritesDepth) ||
+          draw.has(Flag::kShaderSideEffects) || draw.has(Flag::kAlphaToCoverage));
 }
 
 /// Adds 1 where the mask is set, up to the largest value.
@@ -201,7 +202,8 @@ class Pipeline {
     if (command.has(Flag::kNotFilled)) {
       ++result_.draws_not_filled;
     } else {
-      draw_triangles(FrontEnd(frame_, command, format, config_.sub_pixel_bits), command.index_count / 3, setup_state);
+      draw_triangles(FrontEnd(frame_, command, format, config_.sub_pixel_bits), command.index_count / 3,
+                     setup_state);
     }
     result_.counters += draw.counters;
     if (surface_ != nullptr) {
@@ -290,7 +292,8 @@ class Pipeline {
   void mark_visible(const TileMask& passed, std::uint32_t* visible) {
     for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
       for (std::uint64_t left = passed.word[i]; left != 0; left &= left - 1) {
-        visible[i * 64 + static_cast<std::size_t>(std::countr_zero(left))] = first_triangle_ + triangle_.triangle;
+        visible[i * 64 + static_cast<std::size_t>(std::countr_zero(left))] =
+            first_triangle_ + triangle_.triangle;
       }
     }
   }
@@ -339,7 +342,8 @@ class Pipeline {
 
 }  // namespace
 
-FrameResult run_functional(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer) {
+FrameResult run_functional(const Frame& frame, const Config& config, bool keep_visible,
+                           PacketObserver* observer) {
   switch (config.tile_size) {
     case 4:
       return Pipeline<4>(frame, config, keep_visible, observer).run();

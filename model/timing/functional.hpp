@@ -23,8 +23,9 @@ struct Surface {
   TiledImage<std::uint32_t> codes;      ///< stored depth codes
   TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535
   TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535
-  TiledImage<std::uint32_t> visible;    ///< triangle of the frame that wrote the depth last, or kNothingVisible; kept on request
-  Counters counters;                    ///< of all draws on the surface
+  TiledImage<std::uint32_t>
+      visible;  ///< triangle of the frame that wrote the depth last, or kNothingVisible; kept on request
+  Counters counters;  ///< of all draws on the surface
 };
 
 /// One draw of the frame.
@@ -37,9 +38,9 @@ struct DrawStats {
 struct FrameResult {
   std::vector<Surface> surfaces;  ///< by depth surface number
   std::vector<DrawStats> draws;
-  Counters counters;                  ///< of the whole frame, targets without depth included
-  std::uint64_t clears = 0;           ///< clears of depth
-  std::uint64_t draws_not_filled = 0; ///< skipped: their polygons are drawn as lines or points
+  Counters counters;                   ///< of the whole frame, targets without depth included
+  std::uint64_t clears = 0;            ///< clears of depth
+  std::uint64_t draws_not_filled = 0;  ///< skipped: their polygons are drawn as lines or points
 };
 
 /// A quad as it leaves early_z.
@@ -78,8 +79,9 @@ class PacketObserver {
   virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };
 
-/// Runs `frame`, which must be valid (scene/validate.hpp), on the machine of `config`, which must be valid too.
-/// Memory: 8 bytes a pixel of all depth surfaces, 12 with keep_visible. `observer` may be null.
-FrameResult run_functional(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer);
+/// Runs `frame`, which must be valid (scene/validate.hpp), on the machine of `config`, which must be valid
+/// too. Memory: 8 bytes a pixel of all depth surfaces, 12 with keep_visible. `observer` may be null.
+FrameResult run_functional(const Frame& frame, const Config& config, bool keep_visible,
+                           PacketObserver* observer);
 
 }  // namespace halfspace

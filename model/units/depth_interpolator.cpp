@@ -18,7 +18,8 @@ std::int64_t saturated_quotient(Int128 numerator, std::int64_t denominator) {
   return static_cast<std::int64_t>(std::clamp(quotient, -kLimit, kLimit));
 }
 
-/// A float32 depth in [0, 1] on the scale of unorm vertex depths, for the plane, which is fixed point throughout.
+/// A float32 depth in [0, 1] on the scale of unorm vertex depths, for the plane, which is fixed point
+/// throughout.
 std::uint32_t fixed_of_float(std::uint32_t bits) {
   return static_cast<std::uint32_t>(std::nearbyint(std::ldexp(std::bit_cast<float>(bits), kVertexDepthBits)));
 }
@@ -43,7 +44,8 @@ void make_plane(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>&
   eq.x = v[0].x >> pixel;
   eq.y = v[0].y >> pixel;
   const auto at_origin = [&](std::size_t i) {
-    return edge[i].c + eq.bias[i] + ((std::int64_t{edge[i].a} * eq.x + std::int64_t{edge[i].b} * eq.y) << pixel);
+    return edge[i].c + eq.bias[i] +
+           ((std::int64_t{edge[i].a} * eq.x + std::int64_t{edge[i].b} * eq.y) << pixel);
   };
   const Int128 rise = Int128{dz1} * at_origin(1) + Int128{dz2} * at_origin(2);
   const std::int64_t z0 = std::int64_t{eq.z[0]} << kPlaneFraction;
@@ -89,15 +91,16 @@ std::uint32_t float_bits(std::uint64_t m, int exponent) {
   }
   const std::uint64_t rounded = cut <= 0 ? m << -cut : (m + (std::uint64_t{1} << (cut - 1))) >> cut;
   const int place = exponent + cut;
-  // Adding the mantissa with its hidden bit to a field that is one too low carries correctly, also after rounding up
-  // to the next power of two and for subnormals, whose hidden bit is absent.
+  // Adding the mantissa with its hidden bit to a field that is one too low carries correctly, also after
+  // rounding up to the next power of two and for subnormals, whose hidden bit is absent.
   return static_cast<std::uint32_t>((static_cast<std::uint64_t>(place + 149) << 23) + rounded);
 }
 
 }  // namespace
 
-void make_depth_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge, std::int64_t area2,
-                         int sub_pixel_bits, DepthFormat format, DepthInterpolator interpolator, DepthEquation& out) {
+void make_depth_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge,
+                         std::int64_t area2, int sub_pixel_bits, DepthFormat format,
+                         DepthInterpolator interpolator, DepthEquation& out) {
   out.z = {v[0].z, v[1].z, v[2].z};
   out.area2 = area2;
   const auto [z_min, z_max] = std::minmax({v[0].z, v[1].z, v[2].z});

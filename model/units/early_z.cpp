@@ -22,14 +22,16 @@ void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, con
   const DepthEquation& eq = triangle.depth;
   if (state.interpolator == DepthInterpolator::kPlane) {
     for_each_sample<TileSize>(coverage.mask, [&](int bit) {
-      codes[static_cast<std::size_t>(bit)] = plane_code(eq, state.format, coverage.tile_x * TileSize + bit % TileSize,
-                                                        coverage.tile_y * TileSize + bit / TileSize);
+      codes[static_cast<std::size_t>(bit)] =
+          plane_code(eq, state.format, coverage.tile_x * TileSize + bit % TileSize,
+                     coverage.tile_y * TileSize + bit / TileSize);
     });
     return;
   }
   const auto weight_edge = [&](std::size_t i, int bit) {
     const Edge& edge = triangle.edge[i];
-    const std::int64_t steps = std::int64_t{edge.a} * (bit % TileSize) + std::int64_t{edge.b} * (bit / TileSize);
+    const std::int64_t steps =
+        std::int64_t{edge.a} * (bit % TileSize) + std::int64_t{edge.b} * (bit / TileSize);
     return coverage.e[i - 1] + eq.bias[i] + (steps << state.sub_pixel_bits);
   };
   const int fraction = vertex_depth_fraction(state.format);
@@ -61,10 +63,11 @@ TileMask early_z(const SetupTriangle& triangle, const QuadBurst& burst, const Ea
   return passed;
 }
 
-#define HALFSPACE_INSTANTIATE(size)                                                                              \
-  template void interpolate_tile<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, TileCodes<size>&); \
-  template TileMask early_z<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, std::uint32_t*,     \
-                                  TileCodes<size>&);
+#define HALFSPACE_INSTANTIATE(size)                                                                \
+  template void interpolate_tile<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, \
+                                       TileCodes<size>&);                                          \
+  template TileMask early_z<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&,      \
+                                  std::uint32_t*, TileCodes<size>&);
 HALFSPACE_INSTANTIATE(4)
 HALFSPACE_INSTANTIATE(8)
 HALFSPACE_INSTANTIATE(16)

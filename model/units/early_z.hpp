@@ -1,4 +1,5 @@
-/// early_z: interpolates depth at the covered samples of a tile's quads, tests it against the surface and writes it.
+/// early_z: interpolates depth at the covered samples of a tile's quads, tests it against the surface and
+/// writes it.
 #pragma once
 
 #include <array>
@@ -30,8 +31,9 @@ template <int TileSize>
 void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
                       TileCodes<TileSize>& codes);
 
-/// Tests the burst against `stored`, the tile's codes in the surface (TileSize^2, row order), writes those that pass
-/// where the state says so, and returns the mask of the samples that passed. Fills `codes` when the test is on.
+/// Tests the burst against `stored`, the tile's codes in the surface (TileSize^2, row order), writes those
+/// that pass where the state says so, and returns the mask of the samples that passed. Fills `codes` when the
+/// test is on.
 template <int TileSize>
 TileMask early_z(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
                  std::uint32_t* stored, TileCodes<TileSize>& codes);

@@ -1,7 +1,7 @@
 /// edge_evaluator: from a tile job to the coverage mask of the tile.
 ///
-/// Coverage is exact (docs/numerics.md): a sample is inside when all three edge values are >= 0, the fill rule
-/// being folded into them. An edge whose accept bit is set is not looked at.
+/// Coverage is exact (docs/numerics.md): a sample is inside when all three edge values are >= 0, the fill
+/// rule being folded into them. An edge whose accept bit is set is not looked at.
 #pragma once
 
 #include "halfspace/numerics/edge.hpp"

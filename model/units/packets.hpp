@@ -15,7 +15,7 @@ enum class Sign : std::uint8_t { kUnsigned, kSigned };
 
 /// A vertex as setup takes it. z is a fixed-point or float32 code, see numerics/depth.hpp.
 struct ScreenVertex {
-  std::int32_t x = 0;   ///< window coordinate in 1/2^SubPixelBits pixel, y down
+  std::int32_t x = 0;  ///< window coordinate in 1/2^SubPixelBits pixel, y down
   std::int32_t y = 0;
   std::uint32_t z = 0;
 };
@@ -33,20 +33,20 @@ struct Edge {
   std::int64_t c = 0;  ///< E at the centre of pixel (0, 0), less 1 unless the edge owns its samples
 };
 
-/// What early_z needs to know of a triangle to interpolate depth; see units/depth_interpolator.hpp. Vertex i is
-/// opposite to edge i, so E_i / 2A is its weight.
+/// What early_z needs to know of a triangle to interpolate depth; see units/depth_interpolator.hpp. Vertex i
+/// is opposite to edge i, so E_i / 2A is its weight.
 struct DepthEquation {
   std::array<std::uint32_t, 3> z{};    ///< vertex depths
   std::array<std::uint8_t, 3> bias{};  ///< 1 where the fill rule lowered c of the edge
   std::int64_t area2 = 0;              ///< 2A, the sum of the three unbiased E
   std::uint32_t reciprocal = 0;        ///< barycentric: (2^63 - 1) / (2A scaled to 32 bits)
   std::int8_t shift = 0;               ///< barycentric: E >> shift is on the scale of the 32-bit 2A
-  std::int64_t origin = 0;             ///< plane: z at the centre of pixel (x, y), with kPlaneFraction more bits
-  std::int64_t dx = 0;                 ///< plane: change of z for one pixel in x, on the same scale
+  std::int64_t origin = 0;  ///< plane: z at the centre of pixel (x, y), with kPlaneFraction more bits
+  std::int64_t dx = 0;      ///< plane: change of z for one pixel in x, on the same scale
   std::int64_t dy = 0;
-  std::int32_t x = 0;                  ///< plane: the pixel that holds vertex 0
+  std::int32_t x = 0;  ///< plane: the pixel that holds vertex 0
   std::int32_t y = 0;
-  std::uint32_t min_code = 0;          ///< stored codes of the nearest and the farthest vertex: no sample leaves them
+  std::uint32_t min_code = 0;  ///< stored codes of the nearest and the farthest vertex: no sample leaves them
   std::uint32_t max_code = 0;
 };
 
@@ -69,14 +69,14 @@ struct SetupTriangle {
 
 /// tile_walker -> edge_evaluator: a tile that a triangle may touch.
 struct TileJob {
-  std::uint8_t context = 0;            ///< slot of the triangle's depth equation and draw state
-  std::uint16_t tile_x = 0;            ///< in tiles
+  std::uint8_t context = 0;  ///< slot of the triangle's depth equation and draw state
+  std::uint16_t tile_x = 0;  ///< in tiles
   std::uint16_t tile_y = 0;
-  std::array<std::int64_t, 3> e{};     ///< E at the centre of the tile's top left pixel, fill rule folded in
+  std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in
   std::array<std::int32_t, 3> a{};
   std::array<std::int32_t, 3> b{};
-  std::uint8_t accept = 0;             ///< bit i: every sample of the tile is inside edge i
-  std::uint8_t x_first = 0;            ///< columns and rows inside the bounds, inclusive, counted in the tile
+  std::uint8_t accept = 0;   ///< bit i: every sample of the tile is inside edge i
+  std::uint8_t x_first = 0;  ///< columns and rows inside the bounds, inclusive, counted in the tile
   std::uint8_t x_last = 0;
   std::uint8_t y_first = 0;
   std::uint8_t y_last = 0;

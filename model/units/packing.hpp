@@ -1,5 +1,5 @@
-/// Packets as the vector of bits that SystemVerilog sees: the packed struct of the same fields, in 32-bit words,
-/// the lowest bits in word 0 (the layout of Verilator's wide ports).
+/// Packets as the vector of bits that SystemVerilog sees: the packed struct of the same fields, in 32-bit
+/// words, the lowest bits in word 0 (the layout of Verilator's wide ports).
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,8 @@ constexpr std::size_t words_for(int bits) { return (static_cast<std::size_t>(bit
 
 /// Words of a packet, for arrays of static size.
 template <class Packet, int TileSize, int SubPixelBits>
-inline constexpr std::size_t kPackedWords =
-    words_for(packed_bits<Packet>(Widths{.SubPixelBits = SubPixelBits, .TileSize = TileSize}));
+inline constexpr std::size_t kPackedWords = words_for(packed_bits<Packet>(Widths{.SubPixelBits = SubPixelBits,
+                                                                                 .TileSize = TileSize}));
 
 /// Writes the low `width` bits of `value`, 1 to 64, to bits that are still zero.
 constexpr void insert_bits(std::span<std::uint32_t> words, int lsb, int width, std::uint64_t value) {
@@ -75,19 +75,22 @@ constexpr void put(std::span<std::uint32_t> words, int lsb, int width, const Num
 }
 constexpr void put(std::span<std::uint32_t> words, int lsb, int width, const TileMask& mask) {
   for (int done = 0; done < width; done += 64) {
-    insert_bits(words, lsb + done, std::min(width - done, 64), mask.word[static_cast<std::size_t>(done / 64)]);
+    insert_bits(words, lsb + done, std::min(width - done, 64),
+                mask.word[static_cast<std::size_t>(done / 64)]);
   }
 }
 
 template <class Number>
 constexpr void get(std::span<const std::uint32_t> words, int lsb, int width, Sign sign, Number& value) {
   const std::uint64_t bits = extract_bits(words, lsb, width);
-  value = static_cast<Number>(sign == Sign::kSigned ? sign_extend(bits, width) : static_cast<std::int64_t>(bits));
+  value =
+      static_cast<Number>(sign == Sign::kSigned ? sign_extend(bits, width) : static_cast<std::int64_t>(bits));
 }
 constexpr void get(std::span<const std::uint32_t> words, int lsb, int width, Sign /*sign*/, TileMask& mask) {
   mask = TileMask{};
   for (int done = 0; done < width; done += 64) {
-    mask.word[static_cast<std::size_t>(done / 64)] = extract_bits(words, lsb + done, std::min(width - done, 64));
+    mask.word[static_cast<std::size_t>(done / 64)] =
+        extract_bits(words, lsb + done, std::min(width - done, 64));
   }
 }
 
@@ -97,7 +100,8 @@ constexpr bool fits(int width, Sign sign, const Number& value) {
     return sign == Sign::kSigned || value >= 0;
   }
   const auto wide = static_cast<std::int64_t>(value);
-  return sign == Sign::kSigned ? sign_extend(static_cast<std::uint64_t>(wide), width) == wide : wide >> width == 0;
+  return sign == Sign::kSigned ? sign_extend(static_cast<std::uint64_t>(wide), width) == wide
+                               : wide >> width == 0;
 }
 constexpr bool fits(int width, Sign /*sign*/, const TileMask& mask) {
   for (int word = 0; word < 4; ++word) {
@@ -180,7 +184,8 @@ std::vector<FieldSlot> field_slots(const Widths& widths) {
     constexpr int kCount = kFieldElements<std::remove_cvref_t<decltype(std::declval<Packet>().*member)>>;
     for (int i = kCount; i-- > 0;) {
       lsb -= widths.*width;
-      slots.push_back({kCount == 1 ? name : name + ("[" + std::to_string(i) + "]"), lsb, widths.*width, sign});
+      slots.push_back(
+          {kCount == 1 ? name : name + ("[" + std::to_string(i) + "]"), lsb, widths.*width, sign});
     }
   });
   return slots;

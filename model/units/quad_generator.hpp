@@ -1,8 +1,8 @@
 /// quad_generator: from a coverage mask to its 2x2 quads.
 ///
-/// Quads are aligned to even pixels. Every quad that holds a covered sample leaves, in row order of the tile; empty
-/// ones are squeezed out. The samples of a quad that are not covered are helper fragments: a shader runs them for its
-/// derivatives, and they touch no memory.
+/// Quads are aligned to even pixels. Every quad that holds a covered sample leaves, in row order of the tile;
+/// empty ones are squeezed out. The samples of a quad that are not covered are helper fragments: a shader
+/// runs them for its derivatives, and they touch no memory.
 #pragma once
 
 #include "halfspace/units/packets.hpp"
@@ -12,7 +12,7 @@ namespace halfspace {
 
 /// One quad as it leaves the unit.
 struct Quad {
-  int x = 0;              ///< top left pixel in the tile, even
+  int x = 0;  ///< top left pixel in the tile, even
   int y = 0;
   std::uint8_t mask = 0;  ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
 };

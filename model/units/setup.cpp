@@ -17,7 +17,9 @@ std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v) {
 
 /// Starts the cycle at the topmost, then leftmost vertex, so that equal triangles give equal equations.
 void rotate_to_first(std::array<ScreenVertex, 3>& v) {
-  const auto above = [](const ScreenVertex& l, const ScreenVertex& r) { return std::tie(l.y, l.x) < std::tie(r.y, r.x); };
+  const auto above = [](const ScreenVertex& l, const ScreenVertex& r) {
+    return std::tie(l.y, l.x) < std::tie(r.y, r.x);
+  };
   std::rotate(v.begin(), std::min_element(v.begin(), v.end(), above), v.end());
 }
 
@@ -40,8 +42,8 @@ PixelRect intersect(const PixelRect& l, const PixelRect& r) {
           .y_last = std::min(l.y_last, r.y_last)};
 }
 
-/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge has
-/// a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
+/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge
+/// has a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
 bool owns_its_samples(const Edge& edge, bool bottom_left_rule) {
   return edge.a > 0 || (edge.a == 0 && (bottom_left_rule ? edge.b < 0 : edge.b > 0));
 }
@@ -86,7 +88,8 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   }
   out.triangle = in.triangle;
   if (state.depth_format != DepthFormat::kNone) {
-    make_depth_equation(v, out.edge, area2, state.sub_pixel_bits, state.depth_format, state.interpolator, out.depth);
+    make_depth_equation(v, out.edge, area2, state.sub_pixel_bits, state.depth_format, state.interpolator,
+                        out.depth);
   }
   return SetupVerdict::kDrawn;
 }

@@ -1,7 +1,9 @@
-/// setup: from a snapped triangle to edge equations, bounds and a depth equation, or to the reason it is dropped.
+/// setup: from a snapped triangle to edge equations, bounds and a depth equation, or to the reason it is
+/// dropped.
 ///
-/// Edge functions with the top-left rule folded into the constant: J. Pineda, "A Parallel Algorithm for Polygon
-/// Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification, section 3.4.2.1.
+/// Edge functions with the top-left rule folded into the constant: J. Pineda, "A Parallel Algorithm for
+/// Polygon Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification,
+/// section 3.4.2.1.
 #pragma once
 
 #include "halfspace/numerics/depth.hpp"
@@ -17,8 +19,8 @@ struct SetupState {
   bool cull_front = false;
   bool cull_back = false;
   bool bottom_left_rule = false;
-  PixelRect bounds;                                ///< scissor and target, in pixels
-  DepthFormat depth_format = DepthFormat::kNone;   ///< none: no depth equation is made
+  PixelRect bounds;                               ///< scissor and target, in pixels
+  DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
 };
 
@@ -30,8 +32,8 @@ enum class SetupVerdict : std::uint8_t {
   kOutside,   ///< its bounding box misses the scissor or the target
 };
 
-/// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed bits).
-/// Neither the order of the vertices nor which one comes first changes what is drawn or its depth.
+/// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
+/// bits). Neither the order of the vertices nor which one comes first changes what is drawn or its depth.
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out);
 
 }  // namespace halfspace

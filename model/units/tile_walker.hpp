@@ -1,9 +1,10 @@
 /// tile_walker: finds the tiles that a triangle may touch, by a two-level walk of its bounds.
 ///
-/// Blocks first, then the tiles of every block that is not decided: each is rejected when all its samples are outside
-/// one edge, accepted when all are inside all edges, else partial (N. Greene, "Hierarchical Polygon Tiling with
-/// Coverage Masks", SIGGRAPH 1996). An edge function is linear, so its extremes over the samples of a square lie at
-/// corner samples, and two corners of each edge decide. A triangle whose bounds fit one tile skips the block level.
+/// Blocks first, then the tiles of every block that is not decided: each is rejected when all its samples are
+/// outside one edge, accepted when all are inside all edges, else partial (N. Greene, "Hierarchical Polygon
+/// Tiling with Coverage Masks", SIGGRAPH 1996). An edge function is linear, so its extremes over the samples
+/// of a square lie at corner samples, and two corners of each edge decide. A triangle whose bounds fit one
+/// tile skips the block level.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +39,8 @@ struct CornerTest {
   std::uint8_t accept = 0;  ///< bit i: all samples inside edge i
 };
 
-/// Tests the square of `size` pixels whose top left sample the edges are at. Edges in `known` are inside already.
+/// Tests the square of `size` pixels whose top left sample the edges are at. Edges in `known` are inside
+/// already.
 inline CornerTest test_corners(const std::array<EdgeAtSample, 3>& edge, int size, std::uint8_t known,
                                const WalkerConfig& config) {
   CornerTest result{.reject = false, .accept = known};
@@ -48,8 +50,10 @@ inline CornerTest test_corners(const std::array<EdgeAtSample, 3>& edge, int size
     }
     const std::int64_t far_x = edge[i].dx * (size - 1);
     const std::int64_t far_y = edge[i].dy * (size - 1);
-    const std::int64_t most_inside = edge[i].e + std::max<std::int64_t>(far_x, 0) + std::max<std::int64_t>(far_y, 0);
-    const std::int64_t most_outside = edge[i].e + std::min<std::int64_t>(far_x, 0) + std::min<std::int64_t>(far_y, 0);
+    const std::int64_t most_inside =
+        edge[i].e + std::max<std::int64_t>(far_x, 0) + std::max<std::int64_t>(far_y, 0);
+    const std::int64_t most_outside =
+        edge[i].e + std::min<std::int64_t>(far_x, 0) + std::min<std::int64_t>(far_y, 0);
     result.reject |= config.trivial_reject && most_inside < 0;
     result.accept |= static_cast<std::uint8_t>((config.trivial_accept && most_outside >= 0 ? 1u : 0u) << i);
   }
@@ -58,7 +62,8 @@ inline CornerTest test_corners(const std::array<EdgeAtSample, 3>& edge, int size
 
 /// Walks one triangle. `sink` gets
 ///   sink.decision(x, y, size, verdict)  for every block and tile that is decided, x and y in pixels;
-///   sink.tile(job, whole)               for every tile that is not rejected; whole: all its samples are covered.
+///   sink.tile(job, whole)               for every tile that is not rejected; whole: all its samples are
+///   covered.
 /// Blocks and, inside a block, tiles come in row order.
 template <int TileSize, class Sink>
 class TileWalker {
@@ -113,8 +118,9 @@ class TileWalker {
   }
 
   static TileVerdict verdict_of(const CornerTest& test, bool filled) {
-    return test.reject ? TileVerdict::kReject
-                       : test.accept == 7 && filled ? TileVerdict::kAccept : TileVerdict::kPartial;
+    return test.reject                  ? TileVerdict::kReject
+           : test.accept == 7 && filled ? TileVerdict::kAccept
+                                        : TileVerdict::kPartial;
   }
 
   void walk_block(int x, int y) {
@@ -155,8 +161,8 @@ class TileWalker {
     }
   }
 
-  void emit(int x, int y, const std::array<EdgeAtSample, 3>& edge, std::uint8_t accept, const PixelRect& inside,
-            bool whole) {
+  void emit(int x, int y, const std::array<EdgeAtSample, 3>& edge, std::uint8_t accept,
+            const PixelRect& inside, bool whole) {
     job_.tile_x = static_cast<std::uint16_t>(x / TileSize);
     job_.tile_y = static_cast<std::uint16_t>(y / TileSize);
     job_.e = {edge[0].e, edge[1].e, edge[2].e};
@@ -177,7 +183,8 @@ class TileWalker {
 
 /// Walks one triangle; see TileWalker for what `sink` must offer.
 template <int TileSize, class Sink>
-void tile_walker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t context, Sink& sink) {
+void tile_walker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t context,
+                 Sink& sink) {
   TileWalker<TileSize, Sink>(triangle, config, context, sink).walk();
 }
 

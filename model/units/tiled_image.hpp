@@ -10,8 +10,8 @@
 
 namespace halfspace {
 
-/// width x height values; each tile of tile_size^2 lies together in row order, tiles in row order. Tiles at the right
-/// and bottom edge are stored whole.
+/// width x height values; each tile of tile_size^2 lies together in row order, tiles in row order. Tiles at
+/// the right and bottom edge are stored whole.
 template <class Value>
 class TiledImage {
  public:
@@ -21,7 +21,8 @@ class TiledImage {
         height_(height),
         tile_size_(tile_size),
         tiles_x_((width + tile_size - 1) / tile_size),
-        values_(static_cast<std::size_t>(tiles_x_) * ((height + tile_size - 1) / tile_size) * tile_size * tile_size,
+        values_(static_cast<std::size_t>(tiles_x_) * ((height + tile_size - 1) / tile_size) * tile_size *
+                    tile_size,
                 value) {}
 
   [[nodiscard]] int width() const { return width_; }

@@ -35,8 +35,11 @@ std::vector<Expected> read_expected(const fs::path& path, const std::string& fra
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
-  REQUIRE(line.rfind("frame\tsurface\topaque\twidth\theight\ttriangles\tclipped_away\tculled\tdrawn\tcovered_fragments\t"
-                     "depth_passed\tquads\thelper_fragments", 0) == 0);
+  REQUIRE(
+      line.rfind(
+          "frame\tsurface\topaque\twidth\theight\ttriangles\tclipped_away\tculled\tdrawn\tcovered_fragments\t"
+          "depth_passed\tquads\thelper_fragments",
+          0) == 0);
   while (std::getline(file, line)) {
     std::istringstream fields(line);
     Expected row;
@@ -56,19 +59,23 @@ std::vector<Expected> read_expected(const fs::path& path, const std::string& fra
 /// The folder that holds a frame; ends the test as skipped where there is none.
 fs::path folder_of(const std::string& frame) {
   const char* variable = std::getenv("HALFSPACE_FRAMES");
-  for (const fs::path& folder : {fs::path(HALFSPACE_SCENES), fs::path(variable != nullptr ? variable : HALFSPACE_FRAMES)}) {
+  for (const fs::path& folder :
+       {fs::path(HALFSPACE_SCENES), fs::path(variable != nullptr ? variable : HALFSPACE_FRAMES)}) {
     if (fs::exists(folder / (frame + ".ptf.xz"))) {
       return folder;
     }
   }
-  std::cout << "skipped: " << frame << ".ptf.xz does not ship; set HALFSPACE_FRAMES to a folder of captured frames\n";
+  std::cout << "skipped: " << frame
+            << ".ptf.xz does not ship; set HALFSPACE_FRAMES to a folder of captured frames\n";
   std::cout.flush();
   std::_Exit(4);  // what ctest takes for "skipped"; Catch2 version 2 has no word for it
 }
 
 Frame load_frame(const std::string& name) { return read_ptf(folder_of(name) / (name + ".ptf.xz")); }
 
-bool within(double value, double expected, double share) { return std::abs(value - expected) <= share * expected; }
+bool within(double value, double expected, double share) {
+  return std::abs(value - expected) <= share * expected;
+}
 
 /// Within 2^-16, or one code of a 16-bit surface, which is a little more.
 bool agree(double ours, double theirs) { return std::abs(ours - theirs) <= 1.0 / 65535; }
@@ -85,8 +92,8 @@ FrameResult discarding_draws(const Frame& frame) {
 }  // namespace
 
 TEST_CASE("counts of captured frames") {
-  const std::string name = GENERATE("vkcube", "cc0_truck", "glmark2_ideas", "glmark2_shadow", "stk_snowmountain",
-                                    "openarena_gl2", "warzone2100_vulkan");
+  const std::string name = GENERATE("vkcube", "cc0_truck", "glmark2_ideas", "glmark2_shadow",
+                                    "stk_snowmountain", "openarena_gl2", "warzone2100_vulkan");
   SECTION(name) {
     const Frame frame = load_frame(name);
     const std::vector<Expected> rows = read_expected(folder_of(name) / "expected.tsv", name);
@@ -101,9 +108,11 @@ TEST_CASE("counts of captured frames") {
       const auto survivors = static_cast<double>(counters.early_z.survivors);
       const auto quads = static_cast<double>(counters.quad_generator.quads);
       const auto helpers = static_cast<double>(counters.quad_generator.helpers);
-      std::printf("%s surface %u opaque %d: covered %+.0f of %.0f, quads %+.0f of %.0f, helpers %+.0f of %.0f, survivors %+.0f of %.0f\n",
-                  name.c_str(), row.surface, row.opaque, fragments - row.covered, row.covered, quads - row.quads, row.quads,
-                  helpers - row.helpers, row.helpers, survivors - row.passed, row.passed);
+      std::printf(
+          "%s surface %u opaque %d: covered %+.0f of %.0f, quads %+.0f of %.0f, helpers %+.0f of %.0f, "
+          "survivors %+.0f of %.0f\n",
+          name.c_str(), row.surface, row.opaque, fragments - row.covered, row.covered, quads - row.quads,
+          row.quads, helpers - row.helpers, row.helpers, survivors - row.passed, row.passed);
       CAPTURE(name, row.surface, row.opaque);
       CHECK(within(fragments, row.covered, exact ? 0 : 20e-6));
       CHECK(within(quads, row.quads, exact ? 0 : 1e-3));
@@ -114,8 +123,8 @@ TEST_CASE("counts of captured frames") {
 }
 
 TEST_CASE("depth of captured frames against the driver's") {
-  const std::string name =
-      GENERATE("vkcube", "glmark2_ideas", "glmark2_shadow", "stk_snowmountain", "openarena_gl2", "warzone2100_vulkan");
+  const std::string name = GENERATE("vkcube", "glmark2_ideas", "glmark2_shadow", "stk_snowmountain",
+                                    "openarena_gl2", "warzone2100_vulkan");
   SECTION(name) {
     const Frame frame = load_frame(name);
     const FrameResult result = run_functional(frame, {}, false, nullptr);
@@ -133,14 +142,17 @@ TEST_CASE("depth of captured frames against the driver's") {
       const int width = surface.codes.width();
       const int height = surface.codes.height();
       REQUIRE(driver.descr == "'<f4'");
-      REQUIRE(driver.shape == std::vector<std::uint64_t>{static_cast<std::uint64_t>(height), static_cast<std::uint64_t>(width)});
+      REQUIRE(driver.shape == std::vector<std::uint64_t>{static_cast<std::uint64_t>(height),
+                                                         static_cast<std::uint64_t>(width)});
       // Every pixel that is apart belongs to a class of docs/numerics.md.
       int apart = 0;
-      int discarded = 0;  // a draw that may discard wrote there, and we keep what the program's shader may have killed
-      int snapped = 0;    // the reference, whose planes go through unsnapped vertices, agrees with the driver
+      int discarded =
+          0;  // a draw that may discard wrote there, and we keep what the program's shader may have killed
+      int snapped = 0;  // the reference, whose planes go through unsnapped vertices, agrees with the driver
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-          const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+          const auto at =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
           float theirs = 0;
           std::memcpy(&theirs, driver.data.data() + 4 * at, 4);
           const double ours = depth_of_code(surface.format, surface.codes.at(x, y));
@@ -155,9 +167,11 @@ TEST_CASE("depth of captured frames against the driver's") {
           }
         }
       }
-      std::printf("%s surface %zu: %d of %d pixels beyond 2^-16 (%.4f%%): %d discarding shader, %d snapping, %d unexplained\n",
-                  name.c_str(), s, apart, width * height, 100.0 * apart / (width * height), discarded, snapped,
-                  apart - discarded - snapped);
+      std::printf(
+          "%s surface %zu: %d of %d pixels beyond 2^-16 (%.4f%%): %d discarding shader, %d snapping, %d "
+          "unexplained\n",
+          name.c_str(), s, apart, width * height, 100.0 * apart / (width * height), discarded, snapped,
+          apart - discarded - snapped);
       CHECK(apart <= 0.003 * width * height);
       CHECK(apart - discarded - snapped == 0);
     }

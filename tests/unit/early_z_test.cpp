@@ -19,8 +19,10 @@ SetupTriangle flat_triangle(DepthFormat format) {
   SetupState state = open_state(64);
   state.depth_format = format;
   SetupTriangle out;
-  REQUIRE(setup({{ScreenVertex{-5000, -5000, z}, ScreenVertex{30000, -5000, z}, ScreenVertex{-5000, 30000, z}}, 0}, state, out) ==
-          SetupVerdict::kDrawn);
+  REQUIRE(
+      setup(
+          {{ScreenVertex{-5000, -5000, z}, ScreenVertex{30000, -5000, z}, ScreenVertex{-5000, 30000, z}}, 0},
+          state, out) == SetupVerdict::kDrawn);
   return out;
 }
 
@@ -48,14 +50,20 @@ TEST_CASE("early_z: passes and writes as the depth function says") {
       stored[i] = kHere + 1 - static_cast<std::uint32_t>(i % 3);  // incoming is less, equal, greater in turn
     }
     const std::array<std::uint32_t, 64> before = stored;
-    const EarlyZState state{.test = true, .write = write, .func = static_cast<DepthFunc>(func), .format = format,
-                            .interpolator = DepthInterpolator::kBarycentric, .sub_pixel_bits = 8};
+    const EarlyZState state{.test = true,
+                            .write = write,
+                            .func = static_cast<DepthFunc>(func),
+                            .format = format,
+                            .interpolator = DepthInterpolator::kBarycentric,
+                            .sub_pixel_bits = 8};
     const std::uint64_t covered = 0x00FF00FF0F0F0F0Full;
     TileCodes<8> codes{};
     const TileMask passed = early_z<8>(triangle, burst_of(triangle, covered), state, stored.data(), codes);
     for (int i = 0; i < 64; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const bool expected = (covered >> i & 1) != 0 && (i % 3 == 0 ? if_less : i % 3 == 1 ? if_equal : if_greater)[func];
+      const bool expected = (covered >> i & 1) != 0 && (i % 3 == 0   ? if_less
+                                                        : i % 3 == 1 ? if_equal
+                                                                     : if_greater)[func];
       REQUIRE((passed.word[0] >> i & 1) == expected);
       REQUIRE(stored[at] == (expected && write ? kHere : before[at]));
     }
@@ -66,7 +74,8 @@ TEST_CASE("early_z: a test that is off passes everything and writes nothing") {
   const SetupTriangle triangle = flat_triangle(DepthFormat::kUnorm24);
   std::array<std::uint32_t, 64> stored{};
   TileCodes<8> codes{};
-  const TileMask passed = early_z<8>(triangle, burst_of(triangle, 0xF0F0), EarlyZState{}, stored.data(), codes);
+  const TileMask passed =
+      early_z<8>(triangle, burst_of(triangle, 0xF0F0), EarlyZState{}, stored.data(), codes);
   CHECK(passed.word[0] == 0xF0F0);
   CHECK(stored == std::array<std::uint32_t, 64>{});
 }

@@ -1,4 +1,5 @@
-/// The two facts that make the edge hardware small, and the widths that rest on them (docs/units/edge_evaluator.md).
+/// The two facts that make the edge hardware small, and the widths that rest on them
+/// (docs/units/edge_evaluator.md).
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -13,7 +14,8 @@ namespace {
 
 __extension__ using Int128 = __int128;
 
-/// The value at the tile origin, saturated to `step_bits`-wide steps: the formula of saturate_local_edge at any width.
+/// The value at the tile origin, saturated to `step_bits`-wide steps: the formula of saturate_local_edge at
+/// any width.
 constexpr std::int64_t saturate(std::int64_t value, int tile_size, int step_bits) {
   const std::int64_t limit = std::int64_t{tile_size} << step_bits;
   return std::clamp(value, -limit, limit - 1);
@@ -69,15 +71,16 @@ void check_full_width(int sub_pixel_bits) {
     const std::int64_t a = steps[random() % 5];
     const std::int64_t b = steps[random() % 5];
     const std::int64_t half = std::int64_t{1} << (widths.PixelEdgeBits - 1);
-    const std::array<std::int64_t, 6> values = {pick(-half, half - 1), half - 1,        -half,
-                                                pick(-3, 3),           limit + pick(-2, 2), -limit + pick(-2, 2)};
+    const std::array<std::int64_t, 6> values = {
+        pick(-half, half - 1), half - 1, -half, pick(-3, 3), limit + pick(-2, 2), -limit + pick(-2, 2)};
     const std::int64_t value = values[random() % 6];
     const std::int64_t model = saturate_local_edge<TileSize>(value);
     const std::int64_t narrow = saturate(value, TileSize, widths.StepBits);
     REQUIRE(fits(narrow, widths.LocalEdgeBits - 1));
     for (int y = 0; y < TileSize; ++y) {
       for (int x = 0; x < TileSize; ++x) {
-        const bool exact = static_cast<Int128>(value) + static_cast<Int128>(x) * a + static_cast<Int128>(y) * b >= 0;
+        const bool exact =
+            static_cast<Int128>(value) + static_cast<Int128>(x) * a + static_cast<Int128>(y) * b >= 0;
         if ((model + x * a + y * b >= 0) != exact || (narrow + x * a + y * b >= 0) != exact ||
             !fits(narrow + x * a + y * b, widths.LocalEdgeBits) || !fits(model + x * a + y * b, 32)) {
           FAIL("value " << value << " a " << a << " b " << b << " at " << x << "," << y);
@@ -132,7 +135,8 @@ TEST_CASE("whole parts add up without their fractions from tile origin to pixel"
     const Widths widths{.SubPixelBits = sub_pixel_bits, .TileSize = 8};
     const auto coordinate = [&] {
       const std::int64_t extreme = std::int64_t{1} << (widths.CoordBits - 1);
-      const std::int64_t free = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * extreme)) - extreme;
+      const std::int64_t free =
+          static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * extreme)) - extreme;
       const std::array<std::int64_t, 4> choice = {-extreme, extreme - 1, free, free % 4096};
       return choice[random() % 4];
     };
@@ -145,7 +149,8 @@ TEST_CASE("whole parts add up without their fractions from tile origin to pixel"
     const bool owns = a > 0 || (a == 0 && b > 0);
     const std::int64_t one = std::int64_t{1} << sub_pixel_bits;
     const auto exact_at = [&](std::int64_t x, std::int64_t y) {
-      return static_cast<Int128>(a) * (x * one + one / 2 - xi) + static_cast<Int128>(b) * (y * one + one / 2 - yi);
+      return static_cast<Int128>(a) * (x * one + one / 2 - xi) +
+             static_cast<Int128>(b) * (y * one + one / 2 - yi);
     };
     const auto tile_x = static_cast<std::int64_t>(random() % 2048) * 8;
     const auto tile_y = static_cast<std::int64_t>(random() % 2048) * 8;
@@ -179,8 +184,8 @@ TEST_CASE("EdgeBits holds E at the extremes of the guard band") {
     }
     CHECK(fits(least, widths.EdgeBits));
     CHECK(fits(most, widths.EdgeBits));
-    // E is twice the area of a triangle in a square of side 2^CoordBits - 1, so never more than the square: two of
-    // the bits are in reserve. They hold the sum of two products of which nothing is known.
+    // E is twice the area of a triangle in a square of side 2^CoordBits - 1, so never more than the square:
+    // two of the bits are in reserve. They hold the sum of two products of which nothing is known.
     CHECK(fits(most, widths.EdgeBits - 2));
     CHECK(fits(least, widths.EdgeBits - 2));
     CHECK_FALSE(fits(most, widths.EdgeBits - 3));

@@ -1,4 +1,5 @@
-// front_end: viewport, snapping, clipping, polygon offset and depth clamp follow the specification's formulas.
+// front_end: viewport, snapping, clipping, polygon offset and depth clamp follow the specification's
+// formulas.
 #include "halfspace/scene/front_end.hpp"
 
 #include <bit>
@@ -23,8 +24,8 @@ struct Processed {
 };
 
 /// One triangle of clip-space vertices through the front end of a 64 x 64 target.
-Processed process(const std::array<glm::vec4, 3>& clip, std::uint32_t flags = 0, DepthFormat format = DepthFormat::kUnorm24,
-                  const Command& state = {}) {
+Processed process(const std::array<glm::vec4, 3>& clip, std::uint32_t flags = 0,
+                  DepthFormat format = DepthFormat::kUnorm24, const Command& state = {}) {
   FrameBuilder builder(64, format);
   Command& draw = builder.draw({{}, {}, {}});
   builder.frame.vertices.assign(clip.begin(), clip.end());
@@ -45,7 +46,8 @@ double unorm24(const ScreenVertex& v) { return v.z / std::ldexp(16777215.0, 7); 
 TEST_CASE("front_end: divides, applies the viewport and the depth range") {
   Command state;
   state.depth_range = {0.25f, 0.75f};
-  const Processed zero_to_one = process({{{0, 0, 0, 2}, {1, 0, 1, 2}, {0, 1, 2, 2}}}, 0, DepthFormat::kUnorm24, state);
+  const Processed zero_to_one =
+      process({{{0, 0, 0, 2}, {1, 0, 1, 2}, {0, 1, 2, 2}}}, 0, DepthFormat::kUnorm24, state);
   REQUIRE(zero_to_one.triangles.size() == 1);
   const auto& v = zero_to_one.triangles[0].v;
   CHECK((v[0].x == 32 * 256 && v[0].y == 32 * 256));  // (x / w + 1) * 64 / 2
@@ -53,7 +55,8 @@ TEST_CASE("front_end: divides, applies the viewport and the depth range") {
   CHECK(unorm24(v[0]) == Approx(0.25));
   CHECK(unorm24(v[1]) == Approx(0.5));
   CHECK(unorm24(v[2]) == Approx(0.75));
-  const Processed symmetric = process({{{0, 0, -2, 2}, {1, 0, 0, 2}, {0, 1, 2, 2}}}, bits({Flag::kNdcZMinusOneToOne}), DepthFormat::kUnorm24, state);
+  const Processed symmetric = process({{{0, 0, -2, 2}, {1, 0, 0, 2}, {0, 1, 2, 2}}},
+                                      bits({Flag::kNdcZMinusOneToOne}), DepthFormat::kUnorm24, state);
   CHECK(unorm24(symmetric.triangles[0].v[0]) == Approx(0.25));
   CHECK(unorm24(symmetric.triangles[0].v[1]) == Approx(0.5));
   CHECK(unorm24(symmetric.triangles[0].v[2]) == Approx(0.75));
@@ -61,7 +64,9 @@ TEST_CASE("front_end: divides, applies the viewport and the depth range") {
 
 TEST_CASE("front_end: snaps to the nearest sub-pixel, halves to the even one") {
   // x / w + 1 times 32 pixels times 256: a clip x of k / 16384 lies on a half for odd k
-  const auto snapped = [](float k) { return process({{{k / 16384 - 1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}}}).triangles.at(0).v[0].x; };
+  const auto snapped = [](float k) {
+    return process({{{k / 16384 - 1, -1, 0, 1}, {1, -1, 0, 1}, {-1, 1, 0, 1}}}).triangles.at(0).v[0].x;
+  };
   CHECK(snapped(1) == 0);
   CHECK(snapped(3) == 2);
   CHECK(snapped(5) == 2);
@@ -118,7 +123,8 @@ TEST_CASE("front_end: keeps every vertex inside the guard band, whatever comes")
     for (glm::vec4& v : clip) {
       for (int i = 0; i < 4; ++i) {
         const auto mantissa = static_cast<float>(random.between(-1000, 1000)) / 500;
-        v[i] = std::ldexp(mantissa, static_cast<int>(random.between(0, 3) == 0 ? random.between(-140, 126) : random.between(-2, 14)));
+        v[i] = std::ldexp(mantissa, static_cast<int>(random.between(0, 3) == 0 ? random.between(-140, 126)
+                                                                               : random.between(-2, 14)));
       }
     }
     const bool clamp = random.between(0, 1) == 0;
@@ -126,8 +132,9 @@ TEST_CASE("front_end: keeps every vertex inside the guard band, whatever comes")
     Command state;
     state.offset_factor = 1e30f;
     state.offset_units = -1e30f;
-    const Processed p = process(clip, (clamp ? bits({Flag::kDepthClamp}) : 0) | (offset ? bits({Flag::kPolygonOffset}) : 0),
-                                DepthFormat::kUnorm24, state);
+    const Processed p =
+        process(clip, (clamp ? bits({Flag::kDepthClamp}) : 0) | (offset ? bits({Flag::kPolygonOffset}) : 0),
+                DepthFormat::kUnorm24, state);
     for (const ScreenTriangle& t : p.triangles) {
       for (const ScreenVertex& v : t.v) {
         REQUIRE(std::abs(v.x) <= limit);
@@ -147,10 +154,14 @@ TEST_CASE("front_end: polygon offset is factor * slope + units * r, within its c
   state.offset_units = 8;
   const auto first_depth = [&](DepthFormat format) {
     const ScreenVertex v = process(plane, bits({Flag::kPolygonOffset}), format, state).triangles.at(0).v[0];
-    return format == DepthFormat::kFloat32 ? std::bit_cast<float>(v.z) : v.z / std::ldexp(max_unorm_code(format), vertex_depth_fraction(format));
+    return format == DepthFormat::kFloat32
+               ? std::bit_cast<float>(v.z)
+               : v.z / std::ldexp(max_unorm_code(format), vertex_depth_fraction(format));
   };
-  CHECK(first_depth(DepthFormat::kUnorm24) == Approx(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -24)).epsilon(1e-8));
-  CHECK(first_depth(DepthFormat::kUnorm16) == Approx(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -16)).epsilon(1e-7));
+  CHECK(first_depth(DepthFormat::kUnorm24) ==
+        Approx(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -24)).epsilon(1e-8));
+  CHECK(first_depth(DepthFormat::kUnorm16) ==
+        Approx(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -16)).epsilon(1e-7));
   // float32: r = 2^(e - 23) of the largest depth, 0.625, whose e is -1
   CHECK(first_depth(DepthFormat::kFloat32) == static_cast<float>(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -24)));
   state.offset_clamp = 0.01f;
@@ -169,7 +180,8 @@ TEST_CASE("front_end: depth clamp bends the triangle where it leaves the range")
   int flat = 0;
   for (const ScreenTriangle& t : p.triangles) {
     const auto& v = t.v;
-    area2 += std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
+    area2 +=
+        std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
     flat += v[0].z == v[1].z && v[1].z == v[2].z;
   }
   CHECK(area2 == std::int64_t{64 * 256} * (64 * 256));  // the pieces make up the whole

@@ -11,7 +11,10 @@ TEMPLATE_TEST_CASE_SIG("quad_generator: quads partition the mask", "", ((int Til
   for (int n = 0; n < 500; ++n) {
     Coverage coverage;
     for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
-      coverage.mask.word[i] = n == 0 ? 0 : n == 1 ? ~0ull : n % 2 == 0 ? random() & random() & random() : random();
+      coverage.mask.word[i] = n == 0       ? 0
+                              : n == 1     ? ~0ull
+                              : n % 2 == 0 ? random() & random() & random()
+                                           : random();
     }
     coverage.mask &= full_mask<TileSize>();
     const QuadBurst burst = quad_generator<TileSize>(coverage);

@@ -16,7 +16,9 @@ namespace {
 ScreenVertex at_centre(int x, int y, std::uint32_t z = 0) { return {x * 256 + 128, y * 256 + 128, z}; }
 
 /// E at the centre of pixel (x, y), fill rule included.
-std::int64_t value(const Edge& e, int x, int y) { return e.c + ((std::int64_t{e.a} * x + std::int64_t{e.b} * y) << 8); }
+std::int64_t value(const Edge& e, int x, int y) {
+  return e.c + ((std::int64_t{e.a} * x + std::int64_t{e.b} * y) << 8);
+}
 
 bool same(const SetupTriangle& l, const SetupTriangle& r) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -25,8 +27,8 @@ bool same(const SetupTriangle& l, const SetupTriangle& r) {
     }
   }
   return l.bounds.x_first == r.bounds.x_first && l.bounds.x_last == r.bounds.x_last &&
-         l.bounds.y_first == r.bounds.y_first && l.bounds.y_last == r.bounds.y_last && l.depth.z == r.depth.z &&
-         l.depth.reciprocal == r.depth.reciprocal && l.depth.area2 == r.depth.area2;
+         l.bounds.y_first == r.bounds.y_first && l.bounds.y_last == r.bounds.y_last &&
+         l.depth.z == r.depth.z && l.depth.reciprocal == r.depth.reciprocal && l.depth.area2 == r.depth.area2;
 }
 
 }  // namespace
@@ -60,7 +62,8 @@ TEST_CASE("setup: top and left edges own their samples, bottom edges under the o
       REQUIRE(setup(t, state, out) == SetupVerdict::kDrawn);
       for (int y = 0; y < 10; ++y) {
         for (int x = 0; x < 10; ++x) {
-          covered[y][x] += value(out.edge[0], x, y) >= 0 && value(out.edge[1], x, y) >= 0 && value(out.edge[2], x, y) >= 0;
+          covered[y][x] +=
+              value(out.edge[0], x, y) >= 0 && value(out.edge[1], x, y) >= 0 && value(out.edge[2], x, y) >= 0;
         }
       }
     }
@@ -77,23 +80,30 @@ TEST_CASE("setup: bounds are the pixels whose centres the box holds, cut by the 
   SetupState state = open_state(64);
   SetupTriangle out;
   SECTION("a centre exactly on the box counts") {
-    REQUIRE(setup({{at_centre(2, 3), at_centre(9, 3), at_centre(2, 12)}, 0}, state, out) == SetupVerdict::kDrawn);
-    CHECK((out.bounds.x_first == 2 && out.bounds.x_last == 9 && out.bounds.y_first == 3 && out.bounds.y_last == 12));
+    REQUIRE(setup({{at_centre(2, 3), at_centre(9, 3), at_centre(2, 12)}, 0}, state, out) ==
+            SetupVerdict::kDrawn);
+    CHECK((out.bounds.x_first == 2 && out.bounds.x_last == 9 && out.bounds.y_first == 3 &&
+           out.bounds.y_last == 12));
   }
   SECTION("one sub-pixel less and it does not") {
-    const ScreenTriangle t{{ScreenVertex{2 * 256 + 129, 3 * 256 + 129, 0}, ScreenVertex{9 * 256 + 127, 3 * 256 + 129, 0},
-                            ScreenVertex{2 * 256 + 129, 12 * 256 + 127, 0}},
-                           0};
+    const ScreenTriangle t{
+        {ScreenVertex{2 * 256 + 129, 3 * 256 + 129, 0}, ScreenVertex{9 * 256 + 127, 3 * 256 + 129, 0},
+         ScreenVertex{2 * 256 + 129, 12 * 256 + 127, 0}},
+        0};
     REQUIRE(setup(t, state, out) == SetupVerdict::kDrawn);
-    CHECK((out.bounds.x_first == 3 && out.bounds.x_last == 8 && out.bounds.y_first == 4 && out.bounds.y_last == 11));
+    CHECK((out.bounds.x_first == 3 && out.bounds.x_last == 8 && out.bounds.y_first == 4 &&
+           out.bounds.y_last == 11));
   }
   SECTION("the scissor cuts") {
     state.bounds = {.x_first = 5, .y_first = 6, .x_last = 7, .y_last = 20};
-    REQUIRE(setup({{at_centre(2, 3), at_centre(30, 3), at_centre(2, 40)}, 0}, state, out) == SetupVerdict::kDrawn);
-    CHECK((out.bounds.x_first == 5 && out.bounds.x_last == 7 && out.bounds.y_first == 6 && out.bounds.y_last == 20));
+    REQUIRE(setup({{at_centre(2, 3), at_centre(30, 3), at_centre(2, 40)}, 0}, state, out) ==
+            SetupVerdict::kDrawn);
+    CHECK((out.bounds.x_first == 5 && out.bounds.x_last == 7 && out.bounds.y_first == 6 &&
+           out.bounds.y_last == 20));
   }
   SECTION("negative coordinates round down") {
-    REQUIRE(setup({{at_centre(-20, -3), at_centre(9, -3), at_centre(2, 12)}, 0}, state, out) == SetupVerdict::kDrawn);
+    REQUIRE(setup({{at_centre(-20, -3), at_centre(9, -3), at_centre(2, 12)}, 0}, state, out) ==
+            SetupVerdict::kDrawn);
     CHECK((out.bounds.x_first == 0 && out.bounds.y_first == 0));
   }
 }
@@ -119,15 +129,19 @@ TEST_CASE("setup: names why a triangle is dropped") {
     }
   }
   SECTION("no area") {
-    CHECK(setup({{at_centre(0, 0), at_centre(4, 4), at_centre(9, 9)}, 0}, state, out) == SetupVerdict::kZeroArea);
+    CHECK(setup({{at_centre(0, 0), at_centre(4, 4), at_centre(9, 9)}, 0}, state, out) ==
+          SetupVerdict::kZeroArea);
   }
   SECTION("between the centres") {
-    const ScreenTriangle t{{ScreenVertex{130, 130, 0}, ScreenVertex{380, 130, 0}, ScreenVertex{130, 380, 0}}, 0};
+    const ScreenTriangle t{{ScreenVertex{130, 130, 0}, ScreenVertex{380, 130, 0}, ScreenVertex{130, 380, 0}},
+                           0};
     CHECK(setup(t, state, out) == SetupVerdict::kNoSample);
   }
   SECTION("beside the target") {
-    CHECK(setup({{at_centre(64, 0), at_centre(80, 0), at_centre(64, 8)}, 0}, state, out) == SetupVerdict::kOutside);
-    CHECK(setup({{at_centre(-9, 0), at_centre(-1, 0), at_centre(-9, 8)}, 0}, state, out) == SetupVerdict::kOutside);
+    CHECK(setup({{at_centre(64, 0), at_centre(80, 0), at_centre(64, 8)}, 0}, state, out) ==
+          SetupVerdict::kOutside);
+    CHECK(setup({{at_centre(-9, 0), at_centre(-1, 0), at_centre(-9, 8)}, 0}, state, out) ==
+          SetupVerdict::kOutside);
   }
 }
 

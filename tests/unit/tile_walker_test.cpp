@@ -67,7 +67,8 @@ void check_walk(const ScreenTriangle& t, const SetupState& state, const WalkerCo
     for (int y = 0; y < TileSize; ++y) {
       for (int x = 0; x < TileSize; ++x) {
         if (test<TileSize>(mask, x, y)) {
-          walked[static_cast<std::size_t>((job.tile_y * TileSize + y) * kSize + job.tile_x * TileSize + x)] = true;
+          walked[static_cast<std::size_t>((job.tile_y * TileSize + y) * kSize + job.tile_x * TileSize + x)] =
+              true;
         }
       }
     }
@@ -93,7 +94,10 @@ TEMPLATE_TEST_CASE_SIG("tile_walker: covers exactly the samples of the definitio
     const int x = source.integer(0, kSize - 1);
     const int y = source.integer(0, kSize - 1);
     if (n % 3 == 0) {  // a scissor
-      state.bounds = {.x_first = x, .y_first = y, .x_last = source.integer(x, kSize - 1), .y_last = source.integer(y, kSize - 1)};
+      state.bounds = {.x_first = x,
+                      .y_first = y,
+                      .x_last = source.integer(x, kSize - 1),
+                      .y_last = source.integer(y, kSize - 1)};
     }
     check_walk<TileSize>(source.next(), state, config);
   }
@@ -108,7 +112,9 @@ TEST_CASE("tile_walker: decides blocks first, and skips that level where one til
     return recorded;
   };
   SECTION("a triangle over the whole target accepts the blocks inside") {
-    const Recorded r = walk({{ScreenVertex{-40000, -40000, 0}, ScreenVertex{200000, -40000, 0}, ScreenVertex{-40000, 200000, 0}}, 0});
+    const Recorded r = walk(
+        {{ScreenVertex{-40000, -40000, 0}, ScreenVertex{200000, -40000, 0}, ScreenVertex{-40000, 200000, 0}},
+         0});
     int accepted = 0;
     for (const Recorded::Decision& d : r.decisions) {
       accepted += d.size == 32 && d.verdict == TileVerdict::kAccept;
@@ -117,7 +123,8 @@ TEST_CASE("tile_walker: decides blocks first, and skips that level where one til
     CHECK(r.tiles.size() == 13 * 13);
   }
   SECTION("a triangle inside one tile is one decision") {
-    const Recorded r = walk({{ScreenVertex{2100, 2100, 0}, ScreenVertex{3500, 2100, 0}, ScreenVertex{2100, 3500, 0}}, 0});
+    const Recorded r =
+        walk({{ScreenVertex{2100, 2100, 0}, ScreenVertex{3500, 2100, 0}, ScreenVertex{2100, 3500, 0}}, 0});
     REQUIRE(r.decisions.size() == 1);
     CHECK(r.decisions[0].size == 8);
   }
@@ -129,8 +136,8 @@ TEST_CASE("tile_walker: accepts an edge at 0 on its last corner sample and rejec
   const auto corners = [&](std::int64_t start) {
     return test_corners({{{start, -1, 0}, {1000, 0, 0}, {1000, 0, 0}}}, 8, 0, config);
   };
-  CHECK(corners(7).accept == 7);   // 0 at x = 7
-  CHECK(corners(6).accept == 6);   // -1 at x = 7
-  CHECK(!corners(0).reject);       // 0 at x = 0
+  CHECK(corners(7).accept == 7);  // 0 at x = 7
+  CHECK(corners(6).accept == 6);  // -1 at x = 7
+  CHECK(!corners(0).reject);      // 0 at x = 0
   CHECK(corners(-1).reject);
 }
