@@ -27,8 +27,7 @@ test-slow: release $(PYTHON_TOOLS) ## Run the long campaigns too.
 
 .PHONY: bench
 bench: release ## Measure the functional model on the shipped frames.
-	$(HALFSPACE) bench speed scenes/vkcube.ptf.xz
-	$(HALFSPACE) bench speed scenes/cc0_truck.ptf.xz
+	$(HALFSPACE) bench speed scenes/*.ptf.xz
 
 .PHONY: release debug
 release debug: packages

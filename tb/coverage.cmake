@@ -8,13 +8,17 @@ file(GLOB runs ${dir}/*.dat)
 # The annotated sources that verilator_coverage writes count lines; here every point counts, so every bit of a signal.
 execute_process(COMMAND ${VERILATOR_COVERAGE} --write ${dir}/all.dat ${runs} COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 execute_process(COMMAND ${VERILATOR_COVERAGE} --annotate ${dir} ${dir}/all.dat COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
-file(STRINGS ${dir}/all.dat points REGEX "^C ")
+file(READ ${dir}/all.dat data)
+string(ASCII 1 key_mark)
+string(ASCII 2 value_mark)
+string(REGEX REPLACE "[][${key_mark}${value_mark}]" " " data "${data}")  # brackets would join list elements
+string(REGEX MATCHALL "C '[^\n]*' [0-9]+\n" points "${data}")
 list(LENGTH points total)
 set(missed ${points})
-list(FILTER missed INCLUDE REGEX "' [01]$")  # a bit must go up and down: two changes
+list(FILTER missed INCLUDE REGEX "' [01]\n")  # a bit must go up and down: two changes
 list(LENGTH missed missed_count)
 foreach(point IN LISTS missed)
-  string(REGEX REPLACE "[\x01\x02]" " " point "${point}")
+  string(REGEX REPLACE ".* page ([^ ]*) o ([^']*) h .*" "\\1 \\2" point "${point}")
   message(STATUS "not covered: ${point}")
 endforeach()
 math(EXPR tenths "1000 * (${total} - ${missed_count}) / ${total}")

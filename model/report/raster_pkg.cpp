@@ -51,8 +51,9 @@ std::string type_name(std::string_view width_name) {
 
 /// C++ field names that SystemVerilog reserves get a trailing underscore there.
 std::string field_name(std::string_view name) {
-  constexpr std::array<std::string_view, 12> kReserved = {"bit",    "cell",  "config",   "context", "edge",  "event",
-                                                          "global", "local", "priority", "table",   "tagged", "unique"};
+  constexpr std::array<std::string_view, 12> kReserved = {"bit",      "cell",  "config", "context",
+                                                          "edge",     "event", "global", "local",
+                                                          "priority", "table", "tagged", "unique"};
   return std::string(name) + (std::ranges::find(kReserved, name) != kReserved.end() ? "_" : "");
 }
 
@@ -62,7 +63,8 @@ constexpr std::size_t kElements = 0;
 template <class Element, std::size_t N>
 constexpr std::size_t kElements<std::array<Element, N>> = N;
 
-/// An element of a packed array is signed only when its type has a name, so each width of a signed field has one.
+/// An element of a packed array is signed only when its type has a name, so each width of a signed field has
+/// one.
 template <class Packet>
 void add_signed_types(std::vector<int Widths::*>& types) {
   Packet::fields([&](const char*, auto, int Widths::*width, Sign sign) {
@@ -112,7 +114,8 @@ package raster_pkg;
 )";
   for (const WidthEntry& entry : kWidthTable) {
     text += "  // " + std::string(entry.meaning) + "\n";
-    text += "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
+    text +=
+        "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
   }
   std::vector<int Widths::*> types;
   add_signed_types<TileJob>(types);

@@ -56,7 +56,8 @@ Widths check_header(const std::filesystem::path& path, const Header& header) {
   if (sub_pixel_bits < 4 || sub_pixel_bits > 8) {
     fail(path, "sub-pixel bits " + std::to_string(sub_pixel_bits) + ", expected 4 to 8");
   }
-  const Widths widths{.SubPixelBits = static_cast<int>(sub_pixel_bits), .TileSize = static_cast<int>(tile_size)};
+  const Widths widths{.SubPixelBits = static_cast<int>(sub_pixel_bits),
+                      .TileSize = static_cast<int>(tile_size)};
   const std::size_t expected = words_for(packed_bits<TileJob>(widths));
   if (record_words != expected) {
     fail(path, "records of " + std::to_string(record_words) + " words, expected " + std::to_string(expected));
@@ -67,13 +68,17 @@ Widths check_header(const std::filesystem::path& path, const Header& header) {
 }  // namespace
 
 TileJobWriter::TileJobWriter(std::filesystem::path path, const Widths& widths)
-    : path_(std::move(path)), partial_(path_.string() + ".part"), widths_(widths),
-      words_(words_for(packed_bits<TileJob>(widths))), stream_(partial_, std::ios::binary) {
+    : path_(std::move(path)),
+      partial_(path_.string() + ".part"),
+      widths_(widths),
+      words_(words_for(packed_bits<TileJob>(widths))),
+      stream_(partial_, std::ios::binary) {
   if (!stream_) {
     fail(partial_, "cannot be created");
   }
   Header header = {kMagic, kVersion, static_cast<std::uint32_t>(widths.TileSize),
-                   static_cast<std::uint32_t>(widths.SubPixelBits), static_cast<std::uint32_t>(words_.size())};
+                   static_cast<std::uint32_t>(widths.SubPixelBits),
+                   static_cast<std::uint32_t>(words_.size())};
   write_words(stream_, header);
 }
 

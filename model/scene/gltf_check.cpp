@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "halfspace/numerics/error.hpp"
@@ -104,6 +106,44 @@ void check_buffers(const nlohmann::json& root, bool glb, std::string_view name) 
   }
 }
 
+/// The number under `key`, or `fallback` when it is missing; nothing when it is not an unsigned integer.
+std::optional<std::uint64_t> number_at(const nlohmann::json& object, const char* key,
+                                       std::uint64_t fallback) {
+  const auto found = object.find(key);
+  if (found == object.end()) return fallback;
+  if (!found->is_number_unsigned()) return std::nullopt;
+  return found->get<std::uint64_t>();
+}
+
+/// The object that `key` of `object` points to in the list `list` of the root; null when there is none.
+const nlohmann::json* pointed_to(const nlohmann::json& root, const nlohmann::json& object, const char* key,
+                                 const char* list) {
+  const auto items = root.find(list);
+  const auto index = number_at(object, key, std::numeric_limits<std::uint64_t>::max());
+  if (items == root.end() || !items->is_array() || !index || *index >= items->size()) return nullptr;
+  const nlohmann::json& item = (*items)[*index];
+  return item.is_object() ? &item : nullptr;
+}
+
+/// Images are not loaded, but tinygltf takes the address of their first byte.
+void check_images(const nlohmann::json& root, std::string_view name) {
+  const auto images = root.find("images");
+  if (images == root.end() || !images->is_array()) return;
+  for (std::size_t i = 0; i < images->size(); ++i) {
+    const nlohmann::json& image = (*images)[i];
+    if (!image.is_object() || !image.contains("bufferView")) continue;
+    const nlohmann::json* const view = pointed_to(root, image, "bufferView", "bufferViews");
+    const nlohmann::json* const buffer =
+        view != nullptr ? pointed_to(root, *view, "buffer", "buffers") : nullptr;
+    const auto offset = view != nullptr ? number_at(*view, "byteOffset", 0) : std::nullopt;
+    const auto length = buffer != nullptr ? number_at(*buffer, "byteLength", 0) : std::nullopt;
+    if (!offset || !length || *offset >= *length) {
+      fail(name, "image {} has bufferView {}; legal: one that starts within its buffer", i,
+           quote(image["bufferView"].dump()));
+    }
+  }
+}
+
 }  // namespace
 
 bool is_glb(std::span<const std::byte> bytes) { return as_text(bytes).starts_with("glTF"); }
@@ -116,6 +156,7 @@ void check_gltf(std::span<const std::byte> bytes, std::string_view name) {
   if (!root.is_object()) fail(name, "JSON is malformed or not an object; legal: a glTF 2 file");
   check_version(root, name);
   check_buffers(root, glb, name);
+  check_images(root, name);
 }
 
 }  // namespace halfspace

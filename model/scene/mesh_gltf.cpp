@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <glm/ext/quaternion_double.hpp>
@@ -14,6 +15,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>

@@ -35,10 +35,20 @@ bool tests_late(const Command& draw) {
 /// Adds 1 where the mask is set, up to the largest value.
 template <int TileSize>
 void count_samples(const TileMask& mask, std::uint16_t* counts) {
+  constexpr std::size_t kBits = std::min(TileSize * TileSize, 64);
+  constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kBits);
+  const auto add = [&](std::size_t i) {
+    counts[i] = static_cast<std::uint16_t>(counts[i] + (counts[i] != 0xFFFF ? 1 : 0));
+  };
   for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
+    if (mask.word[i] == kAll) {  // most words: a loop without branches
+      for (std::size_t k = 0; k < kBits; ++k) {
+        add(i * 64 + k);
+      }
+      continue;
+    }
     for (std::uint64_t left = mask.word[i]; left != 0; left &= left - 1) {
-      std::uint16_t& count = counts[i * 64 + static_cast<std::size_t>(std::countr_zero(left))];
-      count = static_cast<std::uint16_t>(count + (count != 0xFFFF ? 1 : 0));
+      add(i * 64 + static_cast<std::size_t>(std::countr_zero(left)));
     }
   }
 }

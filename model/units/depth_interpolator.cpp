@@ -112,7 +112,8 @@ void make_depth_equation(const std::array<ScreenVertex, 3>& v, const std::array<
   }
   out.shift = static_cast<std::int8_t>(std::bit_width(static_cast<std::uint64_t>(area2)) - 32);
   constexpr std::uint64_t kOne = (std::uint64_t{1} << 63) - 1;
-  out.reciprocal = static_cast<std::uint32_t>(kOne / scale_weight(out, area2));
+  const std::uint64_t scaled = scale_weight(out, area2);  // 2^31 to 2^32 - 1, since area2 > 0
+  out.reciprocal = static_cast<std::uint32_t>(kOne / std::max<std::uint64_t>(scaled, 1));
 }
 
 std::uint32_t barycentric_float(const DepthEquation& eq, std::int64_t e1, std::int64_t e2) {

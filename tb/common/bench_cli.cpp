@@ -33,8 +33,8 @@ BenchOptions base_options(const CommandLine& command_line) {
 std::string numbered(const std::string& file, std::size_t index) {
   const std::filesystem::path path(file);
   return index == 0 ? file
-                    : (path.parent_path() / fmt::format("{}-{}{}", path.stem().string(), index,
-                                                        path.extension().string()))
+                    : (path.parent_path() /
+                       fmt::format("{}-{}{}", path.stem().string(), index, path.extension().string()))
                           .string();
 }
 
@@ -52,13 +52,13 @@ const DutModel& find_model(const UnitBench& bench, const std::string& name) {
 
 std::string describe(const BenchRun& run) {
   const BenchOptions& options = run.options;
-  return fmt::format("{} idle={} stall={} seed={}", run.name, to_string(options.idle), to_string(options.stall),
-                     options.seed);
+  return fmt::format("{} idle={} stall={} seed={}", run.name, to_string(options.idle),
+                     to_string(options.stall), options.seed);
 }
 
 /// The same run with a waveform, up to the failure.
-void record_failure(const DutModel& model, const UnitShape& shape, const BenchRun& run, const Failure& failure,
-                    const std::string& file) {
+void record_failure(const DutModel& model, const UnitShape& shape, const BenchRun& run,
+                    const Failure& failure, const std::string& file) {
   const std::unique_ptr<StreamDut> dut = model.make(run.options.seed);
   BenchOptions options = run.options;
   options.coverage_file.clear();
@@ -81,7 +81,8 @@ int run_all(const UnitBench& bench, const CommandLine& command_line) {
     const bool wanted = command_line.test_case == "all" ? name != "replay" || !command_line.replay.empty()
                                                         : command_line.test_case == name;
     if (wanted) {
-      std::ranges::move(bench.runs(model, name, command_line, base_options(command_line)), std::back_inserter(runs));
+      std::ranges::move(bench.runs(model, name, command_line, base_options(command_line)),
+                        std::back_inserter(runs));
     }
   }
   std::uint64_t compared = 0;
@@ -111,8 +112,8 @@ int run_all(const UnitBench& bench, const CommandLine& command_line) {
     cycles += result.cycles;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  fmt::print("PASS {} {}: {} packets compared, {} cycles, {:.2f} Mcycles/s\n", bench.unit, model.name, compared, cycles,
-             static_cast<double>(cycles) / seconds.count() / 1e6);
+  fmt::print("PASS {} {}: {} packets compared, {} cycles, {:.2f} Mcycles/s\n", bench.unit, model.name,
+             compared, cycles, static_cast<double>(cycles) / seconds.count() / 1e6);
   return 0;
 }
 
@@ -147,23 +148,30 @@ std::vector<BenchOptions> with_stalls(const BenchOptions& base, const CommandLin
 int bench_main(int argc, char** argv, const UnitBench& bench) {
   CommandLine command_line;
   command_line.failure_wave = bench.unit + "_failure.fst";
-  CLI::App app{"Compares the RTL of " + bench.unit + " with its C++ definition, packet by packet and cycle by cycle"};
-  const std::string model_help = fmt::format("configuration of the RTL (first: {})", bench.models.front().name);
+  CLI::App app{"Compares the RTL of " + bench.unit +
+               " with its C++ definition, packet by packet and cycle by cycle"};
+  const std::string model_help =
+      fmt::format("configuration of the RTL (first: {})", bench.models.front().name);
   std::vector<std::string> cases = bench.cases;
   cases.emplace_back("all");
   app.add_option("--model", command_line.model, model_help);
-  app.add_option("--case", command_line.test_case, "what to send")->check(CLI::IsMember(cases))->capture_default_str();
+  app.add_option("--case", command_line.test_case, "what to send")
+      ->check(CLI::IsMember(cases))
+      ->capture_default_str();
   app.add_option("--seed", command_line.seed, "of stimulus, stalls and register values before reset")
       ->capture_default_str();
   app.add_option("--tiles", command_line.tiles, "packets of a random case, over all its stall profiles")
       ->capture_default_str();
-  app.add_option("--idle", command_line.idle, "share of cycles in which the source idles, instead of profiles")
+  app.add_option("--idle", command_line.idle,
+                 "share of cycles in which the source idles, instead of profiles")
       ->check(CLI::Range(0.0, 0.99));
-  app.add_option("--stall", command_line.stall, "share of cycles in which the sink stalls, instead of profiles")
+  app.add_option("--stall", command_line.stall,
+                 "share of cycles in which the sink stalls, instead of profiles")
       ->check(CLI::Range(0.0, 0.99));
   app.add_option("--replay", command_line.replay, "file of recorded packets for the case replay");
   app.add_option("--wave", command_line.wave, "write a waveform (FST)");
-  app.add_option("--failure-wave", command_line.failure_wave, "waveform of a failing run, made again, or none")
+  app.add_option("--failure-wave", command_line.failure_wave,
+                 "waveform of a failing run, made again, or none")
       ->capture_default_str();
   app.add_option("--coverage", command_line.coverage, "write coverage, of a model built with it");
   app.add_option("--fault", command_line.fault, "fault between the RTL and its checker, which must find it")

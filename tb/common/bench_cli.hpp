@@ -18,7 +18,7 @@ struct CommandLine {
   std::string test_case = "all";
   std::uint64_t seed = 1;
   std::uint64_t tiles = 10000;
-  std::optional<double> idle;   ///< share of the cycles; without it a case runs its own stall profiles
+  std::optional<double> idle;  ///< share of the cycles; without it a case runs its own stall profiles
   std::optional<double> stall;
   std::string replay;
   std::string wave;
@@ -44,14 +44,16 @@ struct UnitBench {
   /// The model that a replay file was recorded for; throws InputError.
   std::function<std::string(const std::string& file)> model_of_file;
   std::function<UnitShape(const DutModel&)> shape;
-  /// The runs of one case. `base` has the seed and the checks; stall profiles come from the command line if it has any.
+  /// The runs of one case. `base` has the seed and the checks; stall profiles come from the command line if
+  /// it has any.
   std::function<std::vector<BenchRun>(const DutModel&, const std::string& test_case, const CommandLine&,
                                       const BenchOptions& base)>
       runs;
 };
 
 /// The stall profiles that random cases go through, or the one that the command line asks for.
-[[nodiscard]] std::vector<BenchOptions> with_stalls(const BenchOptions& base, const CommandLine& command_line);
+[[nodiscard]] std::vector<BenchOptions> with_stalls(const BenchOptions& base,
+                                                    const CommandLine& command_line);
 
 /// Exit status: 0 when all runs passed, a FailureKind when one did not, 1 for input that cannot be used.
 int bench_main(int argc, char** argv, const UnitBench& bench);

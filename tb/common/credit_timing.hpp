@@ -3,7 +3,8 @@
 ///     start(n)   = max(arrive(n), start(n-1) + 1, leave(n - capacity) + 1)
 ///     visible(n) = max(start(n) + latency, leave(n-1) + 1)
 ///
-/// kept as the pins that follow from it, cycle by cycle, so that a unit that is late or early by one is found there.
+/// kept as the pins that follow from it, cycle by cycle, so that a unit that is late or early by one is found
+/// there.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +22,20 @@ class CreditTiming {
   CreditTiming(int latency, int capacity) : latency_(latency), capacity_(capacity) { clear(); }
 
   /// Compares the pins of this cycle, and takes note of what moves in it.
-  std::optional<Failure> cycle(std::uint64_t cycle, bool in_valid, bool in_ready, bool out_valid, bool out_ready) {
+  std::optional<Failure> cycle(std::uint64_t cycle, bool in_valid, bool in_ready, bool out_valid,
+                               bool out_ready) {
     const bool visible = !visible_at_.empty() && visible_at_.front() <= cycle;
     if (in_ready != ready_) {
       return Failure{FailureKind::kTiming, cycle,
-                     fmt::format("input ready is {:d}, with {} of {} credits it should be {:d}", in_ready, credits_,
-                                 capacity_, ready_)};
+                     fmt::format("input ready is {:d}, with {} of {} credits it should be {:d}", in_ready,
+                                 credits_, capacity_, ready_)};
     }
     if (out_valid != visible) {
-      return Failure{FailureKind::kTiming, cycle,
-                     visible ? fmt::format("packet {} should be valid since cycle {}", left_, visible_at_.front())
-                     : visible_at_.empty()
-                         ? fmt::format("output valid with nothing under way after packet {}", left_)
-                         : fmt::format("packet {} valid before cycle {}", left_, visible_at_.front())};
+      return Failure{
+          FailureKind::kTiming, cycle,
+          visible ? fmt::format("packet {} should be valid since cycle {}", left_, visible_at_.front())
+          : visible_at_.empty() ? fmt::format("output valid with nothing under way after packet {}", left_)
+                                : fmt::format("packet {} valid before cycle {}", left_, visible_at_.front())};
     }
     if (in_valid && in_ready) {
       visible_at_.push_back(cycle + static_cast<std::uint64_t>(latency_));

@@ -19,14 +19,22 @@ enum class FailureKind : std::uint8_t {
 
 inline std::string to_string(FailureKind kind) {
   switch (kind) {
-    case FailureKind::kPayload: return "payload";
-    case FailureKind::kMissing: return "missing";
-    case FailureKind::kOrder: return "order";
-    case FailureKind::kExtra: return "extra";
-    case FailureKind::kHandshake: return "handshake";
-    case FailureKind::kTiming: return "timing";
-    case FailureKind::kDeadlock: return "deadlock";
-    case FailureKind::kAssertion: return "assertion";
+    case FailureKind::kPayload:
+      return "payload";
+    case FailureKind::kMissing:
+      return "missing";
+    case FailureKind::kOrder:
+      return "order";
+    case FailureKind::kExtra:
+      return "extra";
+    case FailureKind::kHandshake:
+      return "handshake";
+    case FailureKind::kTiming:
+      return "timing";
+    case FailureKind::kDeadlock:
+      return "deadlock";
+    case FailureKind::kAssertion:
+      return "assertion";
   }
   return "?";
 }

@@ -6,18 +6,19 @@
 namespace halfspace::tb {
 
 std::optional<FaultKind> fault_by_name(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, FaultKind>, 12> kNames = {{{"none", FaultKind::kNone},
-                                                                                {"flip-bit", FaultKind::kFlipBit},
-                                                                                {"drop", FaultKind::kDrop},
-                                                                                {"drop-last", FaultKind::kDropLast},
-                                                                                {"swap", FaultKind::kSwap},
-                                                                                {"duplicate", FaultKind::kDuplicate},
-                                                                                {"extra", FaultKind::kExtra},
-                                                                                {"early-valid", FaultKind::kEarlyValid},
-                                                                                {"change-payload", FaultKind::kChangePayload},
-                                                                                {"late", FaultKind::kLate},
-                                                                                {"stuck", FaultKind::kStuck},
-                                                                                {"source-change", FaultKind::kSourceChange}}};
+  static constexpr std::array<std::pair<const char*, FaultKind>, 12> kNames = {
+      {{"none", FaultKind::kNone},
+       {"flip-bit", FaultKind::kFlipBit},
+       {"drop", FaultKind::kDrop},
+       {"drop-last", FaultKind::kDropLast},
+       {"swap", FaultKind::kSwap},
+       {"duplicate", FaultKind::kDuplicate},
+       {"extra", FaultKind::kExtra},
+       {"early-valid", FaultKind::kEarlyValid},
+       {"change-payload", FaultKind::kChangePayload},
+       {"late", FaultKind::kLate},
+       {"stuck", FaultKind::kStuck},
+       {"source-change", FaultKind::kSourceChange}}};
   for (const auto& [known, kind] : kNames) {
     if (name == known) {
       return kind;

@@ -21,7 +21,7 @@ enum class FaultKind : std::uint8_t {
   kChangePayload,  ///< another payload in the second cycle of a stall
   kLate,           ///< a packet one cycle late
   kStuck,          ///< the link blocks for ever
-  kSourceChange,   ///< the bench's own source changes its payload while stalled: for the assertions of the RTL
+  kSourceChange,  ///< the bench's own source changes its payload while stalled: for the assertions of the RTL
 };
 
 /// The fault of that name ("flip-bit"); nothing when there is none.
@@ -53,7 +53,7 @@ class FaultShim {
   std::vector<std::uint32_t> copy_;  ///< a packet held back or repeated
   bool copy_waits_ = false;
   bool done_ = false;
-  bool stalled_ = false;             ///< the sink stalled this link in the last cycle
+  bool stalled_ = false;  ///< the sink stalled this link in the last cycle
 };
 
 }  // namespace halfspace::tb

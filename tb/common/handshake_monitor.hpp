@@ -16,7 +16,8 @@ class HandshakeMonitor {
  public:
   explicit HandshakeMonitor(std::string link) : link_(std::move(link)) {}
 
-  std::optional<Failure> cycle(std::uint64_t cycle, bool valid, bool ready, std::span<const std::uint32_t> payload) {
+  std::optional<Failure> cycle(std::uint64_t cycle, bool valid, bool ready,
+                               std::span<const std::uint32_t> payload) {
     std::optional<Failure> failure;
     if (stalled_ && !valid) {
       failure = {FailureKind::kHandshake, cycle, link_ + ": valid withdrawn before ready"};

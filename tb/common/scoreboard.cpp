@@ -11,7 +11,8 @@ namespace {
 std::string number(std::span<const std::uint32_t> words, const FieldSlot& field) {
   if (field.width <= 64) {
     const std::uint64_t bits = extract_bits(words, field.lsb, field.width);
-    return field.sign == Sign::kSigned ? fmt::format("{}", sign_extend(bits, field.width)) : fmt::format("{:#x}", bits);
+    return field.sign == Sign::kSigned ? fmt::format("{}", sign_extend(bits, field.width))
+                                       : fmt::format("{:#x}", bits);
   }
   std::string text = "0x";
   for (int done = (field.width - 1) / 32 * 32; done >= 0; done -= 32) {
@@ -20,7 +21,9 @@ std::string number(std::span<const std::uint32_t> words, const FieldSlot& field)
   return text;
 }
 
-bool same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) { return std::ranges::equal(a, b); }
+bool same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+  return std::ranges::equal(a, b);
+}
 
 }  // namespace
 
@@ -36,15 +39,17 @@ std::string Scoreboard::first_difference(const Words& expected, std::span<const 
 }
 
 Failure Scoreboard::missing() const {
-  return {FailureKind::kMissing, skipped_->cycle,
-          fmt::format("packet {} is missing: packet {} came in its place", skipped_->index, skipped_->index + 1)};
+  return {
+      FailureKind::kMissing, skipped_->cycle,
+      fmt::format("packet {} is missing: packet {} came in its place", skipped_->index, skipped_->index + 1)};
 }
 
 std::optional<Failure> Scoreboard::receive(std::uint64_t cycle, std::span<const std::uint32_t> packet) {
   if (skipped_) {
     if (same(skipped_->packet, packet)) {
-      return Failure{FailureKind::kOrder, cycle,
-                     fmt::format("packets {} and {} came in swapped order", skipped_->index, skipped_->index + 1)};
+      return Failure{
+          FailureKind::kOrder, cycle,
+          fmt::format("packets {} and {} came in swapped order", skipped_->index, skipped_->index + 1)};
     }
     return missing();
   }

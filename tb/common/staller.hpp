@@ -18,11 +18,16 @@ enum class StallProfile : std::uint8_t {
 
 inline std::string to_string(StallProfile profile) {
   switch (profile) {
-    case StallProfile::kNone: return "none";
-    case StallProfile::kLight: return "light";
-    case StallProfile::kHeavy: return "heavy";
-    case StallProfile::kBursty: return "bursty";
-    case StallProfile::kCustom: return "custom";
+    case StallProfile::kNone:
+      return "none";
+    case StallProfile::kLight:
+      return "light";
+    case StallProfile::kHeavy:
+      return "heavy";
+    case StallProfile::kBursty:
+      return "bursty";
+    case StallProfile::kCustom:
+      return "custom";
   }
   return "?";
 }
@@ -30,14 +35,18 @@ inline std::string to_string(StallProfile profile) {
 class Staller {
  public:
   /// `share` counts for kCustom only.
-  Staller(StallProfile profile, double share, std::uint64_t seed) : profile_(profile), share_(share), random_(seed) {}
+  Staller(StallProfile profile, double share, std::uint64_t seed)
+      : profile_(profile), share_(share), random_(seed) {}
 
   /// One draw a cycle.
   bool stalled() {
     switch (profile_) {
-      case StallProfile::kNone: return false;
-      case StallProfile::kLight: return random_.below(8) == 0;
-      case StallProfile::kHeavy: return random_.below(4) != 0;
+      case StallProfile::kNone:
+        return false;
+      case StallProfile::kLight:
+        return random_.below(8) == 0;
+      case StallProfile::kHeavy:
+        return random_.below(4) != 0;
       case StallProfile::kBursty:
         if (left_ == 0) {
           stalling_ = !stalling_;
@@ -45,7 +54,8 @@ class Staller {
         }
         --left_;
         return stalling_;
-      case StallProfile::kCustom: return random_.chance(share_);
+      case StallProfile::kCustom:
+        return random_.chance(share_);
     }
     return false;
   }

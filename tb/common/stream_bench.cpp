@@ -11,8 +11,8 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr int kResetCycles = 4;
-constexpr std::uint64_t kDrainCycles = 64;      // what the sink waits for packets that nobody expects
+constexpr std::uint64_t kMaxResetCycles = 4;     // one must do; more must not hurt
+constexpr std::uint64_t kDrainCycles = 64;       // what the sink waits for packets that nobody expects
 constexpr std::uint64_t kDeadlockCycles = 2000;  // longer than any stall profile holds a link
 // Independent seeds from one; the words are arbitrary.
 constexpr std::uint64_t kIdleSeed = 0x1d1e;
@@ -22,10 +22,17 @@ constexpr std::uint64_t kResetSeed = 0x4e5e7;
 class Bench {
  public:
   Bench(StreamDut& dut, const UnitShape& shape, Stimulus& stimulus, const BenchOptions& options)
-      : dut_(dut), shape_(shape), stimulus_(stimulus), options_(options), scoreboard_(shape.output_fields),
-        timing_(shape.latency, shape.capacity), idle_(options.idle, options.idle_share, options.seed ^ kIdleSeed),
-        stall_(options.stall, options.stall_share, options.seed ^ kStallSeed), resets_(options.seed ^ kResetSeed),
-        shim_(options.fault, options.fault_packet), input_(shape.input_words) {}
+      : dut_(dut),
+        shape_(shape),
+        stimulus_(stimulus),
+        options_(options),
+        scoreboard_(shape.output_fields),
+        timing_(shape.latency, shape.capacity),
+        idle_(options.idle, options.idle_share, options.seed ^ kIdleSeed),
+        stall_(options.stall, options.stall_share, options.seed ^ kStallSeed),
+        resets_(options.seed ^ kResetSeed),
+        shim_(options.fault, options.fault_packet),
+        input_(shape.input_words) {}
 
   BenchResult run() {
     reset();
@@ -56,7 +63,7 @@ class Bench {
     dut_.set_reset(true);
     dut_.set_input(false, input_);
     dut_.set_output_ready(false);
-    for (int i = 0; i < kResetCycles; ++i) {
+    for (std::uint64_t left = 1 + resets_.below(kMaxResetCycles); left > 0; --left) {
       dut_.settle();
       dut_.clock_edge();
     }
@@ -153,10 +160,11 @@ class Bench {
       gave_up_ = true;  // nothing waits for anything: what is outstanding is lost
     } else {
       fail({FailureKind::kDeadlock, cycle_,
-            fmt::format("nothing moved for {} cycles: input valid {:d} ready {:d}, output valid {:d} ready {:d}, {} "
-                        "packets received, {} outstanding",
-                        kDeadlockCycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
-                        scoreboard_.received(), scoreboard_.outstanding())});
+            fmt::format(
+                "nothing moved for {} cycles: input valid {:d} ready {:d}, output valid {:d} ready {:d}, {} "
+                "packets received, {} outstanding",
+                kDeadlockCycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
+                scoreboard_.received(), scoreboard_.outstanding())});
     }
   }
 
@@ -165,8 +173,8 @@ class Bench {
     const std::uint64_t expected = options_.full_rate_packets + static_cast<std::uint64_t>(shape_.latency);
     if (last_left_ != expected) {
       fail({FailureKind::kTiming, last_left_,
-            fmt::format("{} packets back to back took {} cycles, not {}", options_.full_rate_packets, last_left_,
-                        expected)});
+            fmt::format("{} packets back to back took {} cycles, not {}", options_.full_rate_packets,
+                        last_left_, expected)});
     }
   }
 
@@ -208,7 +216,8 @@ class Bench {
 
 }  // namespace
 
-BenchResult run_bench(StreamDut& dut, const UnitShape& shape, Stimulus& stimulus, const BenchOptions& options) {
+BenchResult run_bench(StreamDut& dut, const UnitShape& shape, Stimulus& stimulus,
+                      const BenchOptions& options) {
   return Bench(dut, shape, stimulus, options).run();
 }
 

@@ -52,13 +52,13 @@ struct BenchOptions {
   double idle_share = 0;
   double stall_share = 0;
   Checks checks;
-  bool probe_paths = false;        ///< wiggle every input in every cycle: no output may follow before the edge
-  std::uint64_t reset_period = 0;  ///< mean number of cycles between resets under way; 0 for none
+  bool probe_paths = false;  ///< wiggle every input in every cycle: no output may follow before the edge
+  std::uint64_t reset_period = 0;       ///< mean number of cycles between resets under way; 0 for none
   std::uint64_t full_rate_packets = 0;  ///< when not 0, the run must take exactly this + latency cycles
   FaultKind fault = FaultKind::kNone;
   std::uint64_t fault_packet = 0;
-  std::string wave_file;            ///< empty for none
-  std::uint64_t wave_from = 0;      ///< first cycle in it
+  std::string wave_file;        ///< empty for none
+  std::uint64_t wave_from = 0;  ///< first cycle in it
   std::string coverage_file;
 };
 
@@ -68,6 +68,7 @@ struct BenchResult {
   std::uint64_t compared = 0;  ///< packets that were as expected
 };
 
-BenchResult run_bench(StreamDut& dut, const UnitShape& shape, Stimulus& stimulus, const BenchOptions& options);
+BenchResult run_bench(StreamDut& dut, const UnitShape& shape, Stimulus& stimulus,
+                      const BenchOptions& options);
 
 }  // namespace halfspace::tb

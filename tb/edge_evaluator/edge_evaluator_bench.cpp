@@ -45,8 +45,8 @@ std::vector<TileJob> replayed_jobs(const std::string& file, const DutModel& mode
   return std::move(jobs.jobs);
 }
 
-std::vector<BenchRun> runs(const DutModel& model, const std::string& test_case, const CommandLine& command_line,
-                           const BenchOptions& base) {
+std::vector<BenchRun> runs(const DutModel& model, const std::string& test_case,
+                           const CommandLine& command_line, const BenchOptions& base) {
   const Widths widths = widths_of(model);
   std::vector<BenchRun> runs;
   if (test_case == "timing") {
@@ -78,6 +78,10 @@ std::vector<BenchRun> runs(const DutModel& model, const std::string& test_case, 
 int main(int argc, char** argv) {
   using namespace halfspace::tb;
   return bench_main(argc, argv,
-                    {"edge_evaluator", edge_evaluator_models(), {"directed", "timing", "reset", "random", "replay"},
-                     model_of_file, shape, runs});
+                    {"edge_evaluator",
+                     edge_evaluator_models(),
+                     {"directed", "timing", "reset", "random", "replay"},
+                     model_of_file,
+                     shape,
+                     runs});
 }

@@ -20,7 +20,8 @@ void number(TileJob& job, std::uint64_t index, const Widths& widths) {
   const auto field = [&](int shift, int bits) { return index >> shift & ((std::uint64_t{1} << bits) - 1); };
   job.context = static_cast<std::uint8_t>(field(0, widths.ContextBits));
   job.tile_x = static_cast<std::uint16_t>(field(widths.ContextBits, widths.TileCoordBits));
-  job.tile_y = static_cast<std::uint16_t>(field(widths.ContextBits + widths.TileCoordBits, widths.TileCoordBits));
+  job.tile_y =
+      static_cast<std::uint16_t>(field(widths.ContextBits + widths.TileCoordBits, widths.TileCoordBits));
 }
 
 /// A job in which every sample is covered.
@@ -37,8 +38,8 @@ std::int64_t edge_at(std::int64_t pixel_edge, std::int64_t sub_pixel, const Widt
 
 void add_extremes(std::vector<TileJob>& jobs, const Widths& widths) {
   const std::array<std::int64_t, 7> edges = {
-      lowest(widths.EdgeBits), lowest(widths.EdgeBits) + 1, -1, 0, 1, highest(widths.EdgeBits) - 1,
-      highest(widths.EdgeBits)};
+      lowest(widths.EdgeBits),      lowest(widths.EdgeBits) + 1, -1, 0, 1,
+      highest(widths.EdgeBits) - 1, highest(widths.EdgeBits)};
   const std::array<std::int64_t, 5> steps = {lowest(widths.StepBits), -1, 0, 1, highest(widths.StepBits)};
   for (std::size_t i = 0; i < 3; ++i) {
     for (const std::int64_t e : edges) {
@@ -63,7 +64,8 @@ void add_saturation(std::vector<TileJob>& jobs, const Widths& widths) {
     for (const std::int64_t step : {lowest(widths.StepBits), highest(widths.StepBits)}) {
       for (const std::int64_t centre : {limit, -limit, -2 * across * step, -across * step, std::int64_t{0}}) {
         for (std::int64_t delta = -2; delta <= 2; ++delta) {
-          for (const std::int64_t sub_pixel : {std::int64_t{0}, (std::int64_t{1} << widths.SubPixelBits) - 1}) {
+          for (const std::int64_t sub_pixel :
+               {std::int64_t{0}, (std::int64_t{1} << widths.SubPixelBits) - 1}) {
             TileJob job = full_job(widths);
             job.e[i] = edge_at(centre + delta, sub_pixel, widths);
             job.a[i] = job.b[i] = static_cast<std::int32_t>(step);
@@ -170,10 +172,15 @@ void add_identities(std::vector<TileJob>& jobs, const Widths& widths) {
 
 std::int32_t random_step(const Widths& widths, Random& random) {
   switch (random.below(6)) {
-    case 0: return 0;
-    case 1: return static_cast<std::int32_t>(random.below(2) == 0 ? lowest(widths.StepBits) : highest(widths.StepBits));
-    case 2: return static_cast<std::int32_t>(random.range(-4, 4));
-    case 3: return static_cast<std::int32_t>(random.range(-2048, 2048));
+    case 0:
+      return 0;
+    case 1:
+      return static_cast<std::int32_t>(random.below(2) == 0 ? lowest(widths.StepBits)
+                                                            : highest(widths.StepBits));
+    case 2:
+      return static_cast<std::int32_t>(random.range(-4, 4));
+    case 3:
+      return static_cast<std::int32_t>(random.range(-2048, 2048));
     default: {
       const int bits = static_cast<int>(random.range(2, widths.StepBits));
       return static_cast<std::int32_t>(random.range(lowest(bits), highest(bits)));
@@ -182,7 +189,9 @@ std::int32_t random_step(const Widths& widths, Random& random) {
 }
 
 void random_bounds(TileJob& job, const Widths& widths, Random& random) {
-  const auto coordinate = [&] { return static_cast<std::uint8_t>(random.below(static_cast<std::uint64_t>(widths.TileSize))); };
+  const auto coordinate = [&] {
+    return static_cast<std::uint8_t>(random.below(static_cast<std::uint64_t>(widths.TileSize)));
+  };
   switch (random.below(4)) {
     case 0:  // any, the empty ones too
       job.x_first = coordinate();
@@ -223,9 +232,12 @@ std::array<Vertex, 3> random_triangle(const Widths& widths, Random& random) {
       const Vertex second = around(centre, 64 * one);
       return {first, second, around({(first.x + second.x) / 2, (first.y + second.y) / 2}, 2)};
     }
-    case 1: return {around(centre, 2 * one), around(centre, 2 * one), around(centre, 2 * one)};
-    case 2: return {around(centre, 40 * one), around(centre, 40 * one), around(centre, 40 * one)};
-    case 3: return {around(centre, 4000 * one), around(centre, 4000 * one), around(centre, 4000 * one)};
+    case 1:
+      return {around(centre, 2 * one), around(centre, 2 * one), around(centre, 2 * one)};
+    case 2:
+      return {around(centre, 40 * one), around(centre, 40 * one), around(centre, 40 * one)};
+    case 3:
+      return {around(centre, 4000 * one), around(centre, 4000 * one), around(centre, 4000 * one)};
     case 4: {  // vertices on pixel centres: edges run through samples
       std::array<Vertex, 3> triangle;
       for (Vertex& v : triangle) {
@@ -261,12 +273,15 @@ void set_edges(TileJob& job, const std::array<Vertex, 3>& v, Vertex origin) {
 /// True when the whole tile is inside edge i: its least corner is.
 bool accepts(const TileJob& job, std::size_t i, const Widths& widths) {
   const std::int64_t across = std::int64_t{widths.TileSize - 1} << widths.SubPixelBits;
-  return job.e[i] + std::min<std::int64_t>(job.a[i], 0) * across + std::min<std::int64_t>(job.b[i], 0) * across >= 0;
+  return job.e[i] + std::min<std::int64_t>(job.a[i], 0) * across +
+             std::min<std::int64_t>(job.b[i], 0) * across >=
+         0;
 }
 
 class JobStimulus : public Stimulus {
  public:
-  explicit JobStimulus(const Widths& widths) : widths_(widths), words_(words_for(packed_bits<Coverage>(widths))) {}
+  explicit JobStimulus(const Widths& widths)
+      : widths_(widths), words_(words_for(packed_bits<Coverage>(widths))) {}
 
   void reference(std::span<const std::uint32_t> packet, Scoreboard& scoreboard) final {
     pack(reference_coverage(unpack<TileJob>(packet, widths_), widths_), widths_, words_);
@@ -290,7 +305,8 @@ class RandomStimulus final : public JobStimulus {
       return false;
     }
     --left_;
-    pack(random_.below(2) == 0 ? random_job(widths_, random_) : triangle_job(widths_, random_), widths_, packet);
+    pack(random_.below(2) == 0 ? random_job(widths_, random_) : triangle_job(widths_, random_), widths_,
+         packet);
     return true;
   }
 
@@ -301,7 +317,8 @@ class RandomStimulus final : public JobStimulus {
 
 class ListStimulus final : public JobStimulus {
  public:
-  ListStimulus(const Widths& widths, std::vector<TileJob> jobs) : JobStimulus(widths), jobs_(std::move(jobs)) {}
+  ListStimulus(const Widths& widths, std::vector<TileJob> jobs)
+      : JobStimulus(widths), jobs_(std::move(jobs)) {}
 
   bool next(std::span<std::uint32_t> packet) override {
     if (next_ == jobs_.size()) {
@@ -321,9 +338,15 @@ class ListStimulus final : public JobStimulus {
 Coverage reference_coverage(const TileJob& job, const Widths& widths) {
   Coverage coverage{job.context, job.tile_x, job.tile_y, {job.e[1], job.e[2]}, {}};
   switch (widths.TileSize) {
-    case 4: coverage.mask = edge_evaluator<4>(job, widths.SubPixelBits); break;
-    case 8: coverage.mask = edge_evaluator<8>(job, widths.SubPixelBits); break;
-    default: coverage.mask = edge_evaluator<16>(job, widths.SubPixelBits); break;
+    case 4:
+      coverage.mask = edge_evaluator<4>(job, widths.SubPixelBits);
+      break;
+    case 8:
+      coverage.mask = edge_evaluator<8>(job, widths.SubPixelBits);
+      break;
+    default:
+      coverage.mask = edge_evaluator<16>(job, widths.SubPixelBits);
+      break;
   }
   return coverage;
 }
@@ -356,13 +379,17 @@ TileJob random_job(const Widths& widths, Random& random) {
     job.b[i] = random_step(widths, random);
     const std::int64_t sub_pixel = random.range(0, (std::int64_t{1} << widths.SubPixelBits) - 1);
     switch (random.below(8)) {
-      case 0: job.e[i] = random.range(lowest(widths.EdgeBits), highest(widths.EdgeBits)); break;
+      case 0:
+        job.e[i] = random.range(lowest(widths.EdgeBits), highest(widths.EdgeBits));
+        break;
       case 1: {
         const std::int64_t near_limit = (random.below(2) == 0 ? limit : -limit) + random.range(-3, 3);
         job.e[i] = edge_at(near_limit, sub_pixel, widths);
         break;
       }
-      case 2: job.e[i] = random.range(-2, 2); break;
+      case 2:
+        job.e[i] = random.range(-2, 2);
+        break;
       default: {  // through a pixel of the tile, or just beside it
         const std::int64_t at_pixel = random.range(0, last) * job.a[i] + random.range(0, last) * job.b[i];
         job.e[i] = edge_at(-at_pixel + random.range(-1, 1), sub_pixel, widths);

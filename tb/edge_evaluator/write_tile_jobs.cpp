@@ -1,4 +1,5 @@
-/// Writes a file of random tile jobs, for the test of replay: write_tile_jobs FILE TILE_SIZE SUB_PIXEL_BITS COUNT.
+/// Writes a file of random tile jobs, for the test of replay: write_tile_jobs FILE TILE_SIZE SUB_PIXEL_BITS
+/// COUNT.
 #include <exception>
 #include <iostream>
 #include <string>

@@ -103,6 +103,15 @@ const Case kCases[] = {
      },
      "f: extension \"KHR_draco_mesh_compression\" is required; legal: only extensions of materials and "
      "textures"},
+    {[](json& j) { j["images"] = json::parse(R"([{"bufferView": 2, "mimeType": "image/png"}])"); },
+     "f: image 0 has bufferView \"2\"; legal: one that starts within its buffer"},
+    {[](json& j) { j["images"] = json::parse(R"([{"bufferView": "x", "mimeType": "image/png"}])"); },
+     "f: image 0 has bufferView \"\"x\"\"; legal: one that starts within its buffer"},
+    {[](json& j) {
+       j["images"] = json::parse(R"([{"bufferView": 2, "mimeType": "image/png"}])");
+       j["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 168}, {"byteLength", 0}});
+     },
+     "f: image 0 has bufferView \"2\"; legal: one that starts within its buffer"},
     {[](json& j) { primitive(j)["extensions"]["KHR_draco_mesh_compression"] = json::object(); },
      "f: extension \"KHR_draco_mesh_compression\" is used; legal: uncompressed primitives"},
     {[](json& j) { j["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = json::object(); },
@@ -192,7 +201,7 @@ TEST_CASE("buffers are only read from the folder of the file, and must have the 
     json j = cube_gltf();
     j["buffers"][0]["uri"] = uri;
     const auto path = folder.write("in/a.gltf", j.dump());
-    const std::string message = error_of([&] { return read_mesh(path); });
+    std::string message = error_of([&] { return read_mesh(path); });
     CHECK(message.starts_with(path.string() + ": not read as glTF ("));
     return message;
   };

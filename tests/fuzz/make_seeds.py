@@ -76,7 +76,7 @@ def gltf():
 
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     text = json.dumps(scene(buffers=[{"byteLength": len(data), "uri": uri}])).encode()
-    chunk = json.dumps(scene()).encode()
+    chunk = json.dumps(scene(images=[{"bufferView": 2, "mimeType": "image/png"}])).encode()
     chunk += b" " * (-len(chunk) % 4)
     total = 12 + 8 + len(chunk) + 8 + len(data)
     glb = struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(chunk), b"JSON") + chunk

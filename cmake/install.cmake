@@ -1,0 +1,15 @@
+# cmake --install: the program, the library, its headers, and what find_package(halfspace) needs.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+install(TARGETS halfspace EXPORT halfspaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS halfspace_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY model/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halfspace
+        FILES_MATCHING PATTERN "*.hpp" PATTERN cli EXCLUDE PATTERN reference EXCLUDE)
+install(EXPORT halfspaceTargets NAMESPACE halfspace:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/halfspace)
+
+configure_package_config_file(cmake/halfspaceConfig.cmake.in ${PROJECT_BINARY_DIR}/halfspaceConfig.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/halfspace)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/halfspaceConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/halfspaceConfig.cmake ${PROJECT_BINARY_DIR}/halfspaceConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/halfspace)
