@@ -37,6 +37,10 @@ class TiledImage {
   [[nodiscard]] Value& at(int x, int y) { return values_[index(x, y)]; }
 
   void fill(const PixelRect& rect, Value value) {
+    if (rect.x_first == 0 && rect.y_first == 0 && rect.x_last == width_ - 1 && rect.y_last == height_ - 1) {
+      std::fill(values_.begin(), values_.end(), value);
+      return;
+    }
     for (int y = rect.y_first; y <= rect.y_last; ++y) {
       for (int x = rect.x_first; x <= rect.x_last; ++x) {
         at(x, y) = value;
