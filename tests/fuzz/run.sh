@@ -3,12 +3,12 @@
 # One summary line a target; exit status 1 when any of them found something (its input is kept beside the corpus).
 set -eu
 if [ $# -lt 1 ]; then
-  echo "usage: $0 SECONDS [ptf|obj|ply|gltf]..." >&2
+  echo "usage: $0 SECONDS [ptf|run|obj|ply|gltf]..." >&2
   exit 2
 fi
 seconds=$1
 shift
-[ $# -gt 0 ] || set -- ptf obj ply gltf
+[ $# -gt 0 ] || set -- ptf run obj ply gltf
 cd "$(dirname "$0")/../.."
 build=${HALFSPACE_FUZZ_BUILD:-build/fuzz}
 work=$build/corpus
@@ -22,7 +22,9 @@ for target in "$@"; do
   mkdir -p "$work/$target" "$work/found"
   log=$work/$target.log
   result=clean
-  "$(find "$build" -name "fuzz_$target" -type f)" "$work/$target" "$work/seeds/$target" \
+  seeds=$target
+  [ "$target" != run ] || seeds=ptf  # frames again
+  "$(find "$build" -name "fuzz_$target" -type f)" "$work/$target" "$work/seeds/$seeds" \
     -max_total_time="$seconds" -max_len=4096 -rss_limit_mb=2048 -timeout=10 -print_final_stats=1 \
     -artifact_prefix="$work/found/$target-" >"$log" 2>&1 || result="FOUND SOMETHING, see $log"
   [ "$result" = clean ] || status=1

@@ -1,0 +1,39 @@
+// A frame that the reader accepts runs to its end, whatever its bytes say.
+#include <catch2/catch.hpp>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/byte_source.hpp"
+#include "halfspace/scene/ptf.hpp"
+#include "halfspace/timing/functional.hpp"
+
+using namespace halfspace;
+
+TEST_CASE("any byte of a frame may change: it is refused, or it runs and every fragment is accounted for") {
+  std::vector<std::byte> bytes = read_bytes(HALFSPACE_SCENES_DIR "/vkcube.ptf.xz");
+  int refused = 0;
+  int ran = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    for (const unsigned change : {0x01u, 0x80u, 0xFFu}) {
+      const std::byte before = bytes[i];
+      bytes[i] ^= static_cast<std::byte>(change);
+      CAPTURE(i, change);
+      try {
+        const Frame frame = parse_ptf(bytes, "changed");
+        const Counters c = run_functional(frame, {}, false, nullptr).counters;
+        ++ran;
+        REQUIRE(c.front_end.triangles >=
+                c.front_end.non_finite + c.front_end.clipped_away + c.front_end.degenerate);
+        REQUIRE(c.setup.triangles == c.front_end.emitted);
+        REQUIRE(c.setup.triangles ==
+                c.setup.zero_area + c.setup.culled + c.setup.no_sample + c.setup.outside + c.setup.drawn);
+        REQUIRE(c.quad_generator.fragments == c.early_z.tested + c.early_z.untested);
+      } catch (const InputError& error) {
+        ++refused;
+        REQUIRE(std::string(error.what()).rfind("changed", 0) == 0);
+      }
+      bytes[i] = before;
+    }
+  }
+  CHECK(refused > 100);
+  CHECK(ran > 1000);
+}
