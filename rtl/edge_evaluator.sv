@@ -33,7 +33,7 @@ module edge_evaluator
 
   // What a tile carries past the adders.
   typedef struct packed {
-    logic [ContextBits-1:0]   context_;
+    logic [SlotBits-1:0]      slot;
     logic [TileCoordBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0]              e;
@@ -50,7 +50,7 @@ module edge_evaluator
 
   assign job_accepted = job_valid_i & job_ready_o;
   assign job_tile = '{
-    context_: job_i.context_,
+    slot:     job_i.slot,
     tile_x:   job_i.tile_x,
     tile_y:   job_i.tile_y,
     e:        job_i.e[2:1],
@@ -118,7 +118,7 @@ module edge_evaluator
   logic      coverage_valid;
 
   always_comb begin
-    coverage_d.context_ = steps_tile.context_;
+    coverage_d.slot     = steps_tile.slot;
     coverage_d.tile_x   = steps_tile.tile_x;
     coverage_d.tile_y   = steps_tile.tile_y;
     coverage_d.e        = steps_tile.e;

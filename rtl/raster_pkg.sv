@@ -36,15 +36,15 @@ package raster_pkg;
   parameter int unsigned MaskBits = TileSize * TileSize;
   // edges of a triangle: one accept bit each
   parameter int unsigned EdgeCount = 3;
-  // slot that holds what all tiles of a triangle share
-  parameter int unsigned ContextBits = 8;
+  // where the units keep what all tiles of a triangle share
+  parameter int unsigned SlotBits = 8;
 
   typedef logic signed [EdgeBits-1:0] edge_t;
   typedef logic signed [StepBits-1:0] step_t;
 
   // tile_walker -> edge_evaluator
   typedef struct packed {
-    logic [ContextBits-1:0] context_;
+    logic [SlotBits-1:0] slot;
     logic [TileCoordBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [2:0] e;
@@ -59,7 +59,7 @@ package raster_pkg;
 
   // edge_evaluator -> quad_generator
   typedef struct packed {
-    logic [ContextBits-1:0] context_;
+    logic [SlotBits-1:0] slot;
     logic [TileCoordBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0] e;

@@ -19,7 +19,7 @@ namespace halfspace {
   W(LocalEdgeBits,   StepBits + TileLog2 + 2,                          "edge value inside one tile, saturated at the tile origin") \
   W(MaskBits,        TileSize * TileSize,                              "coverage mask of a tile, bit y * TileSize + x") \
   W(EdgeCount,       3,                                                "edges of a triangle: one accept bit each")     \
-  W(ContextBits,     8,                                                "slot that holds what all tiles of a triangle share")
+  W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share")
 // clang-format on
 
 /// All widths for one choice of the two parameters.

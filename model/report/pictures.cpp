@@ -45,22 +45,31 @@ glm::vec3 draw_color(std::uint32_t draw) {
   return glm::rgbColor(glm::vec3(turn * 360, 0.25f, 0.9f));
 }
 
-/// The draw of each triangle of the frame, as a sorted list of first triangles.
-struct DrawLookup {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> first;  ///< (first triangle, command)
+/// Which draw a triangle of the frame belongs to. Triangles are counted through all draws, in order.
+class DrawLookup {
+ public:
+  struct Found {
+    std::uint32_t command;
+    std::uint32_t triangle;  ///< in the draw
+  };
 
   explicit DrawLookup(const Frame& frame) {
+    std::uint32_t next = 0;
     for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {
-      if (frame.commands[i].kind == CommandKind::kDraw && frame.commands[i].index_count > 0) {
-        first.emplace_back(frame.commands[i].first_index / 3, i);
+      if (frame.commands[i].kind == CommandKind::kDraw) {
+        first_.emplace_back(next, i);
+        next += frame.commands[i].index_count / 3;
       }
     }
-    std::sort(first.begin(), first.end());
   }
-  [[nodiscard]] std::uint32_t command_of(std::uint32_t triangle) const {
-    const auto after = std::upper_bound(first.begin(), first.end(), std::pair{triangle, 0xFFFFFFFFu});
-    return std::prev(after)->second;
+  [[nodiscard]] Found find(std::uint32_t triangle) const {
+    const auto [first, command] =
+        *std::prev(std::upper_bound(first_.begin(), first_.end(), std::pair{triangle, 0xFFFFFFFFu}));
+    return {command, triangle - first};
   }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> first_;  ///< (first triangle, command) of each draw
 };
 
 glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t triangle) {
@@ -69,12 +78,16 @@ glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t tri
   std::array<glm::vec3, 3> v;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::vec4& p =
-        frame.vertices[std::size_t{draw.first_vertex} + frame.indices[std::size_t{triangle} * 3 + i]];
+        frame.vertices[std::size_t{draw.first_vertex} +
+                       frame.indices[std::size_t{draw.first_index} + std::size_t{triangle} * 3 + i]];
     v[i] = {p.x * kTangent * aspect, p.y * kTangent * (draw.viewport.w < 0 ? 1.0f : -1.0f), -p.w};
   }
   const bool orthographic = v[0].z == v[1].z && v[1].z == v[2].z;
   for (std::size_t i = 0; orthographic && i < 3; ++i) {
-    v[i].z = -frame.vertices[std::size_t{draw.first_vertex} + frame.indices[std::size_t{triangle} * 3 + i]].z;
+    v[i].z = -frame
+                  .vertices[std::size_t{draw.first_vertex} +
+                            frame.indices[std::size_t{draw.first_index} + std::size_t{triangle} * 3 + i]]
+                  .z;
   }
   const glm::vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
   const float length = glm::length(normal);
@@ -104,8 +117,8 @@ Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_
     if (triangle == kNothingVisible) {
       return kBackground;
     }
-    const std::uint32_t command = draws.command_of(triangle);
-    const glm::vec3 normal = face_normal(frame, frame.commands[command], triangle);
+    const auto [command, in_draw] = draws.find(triangle);
+    const glm::vec3 normal = face_normal(frame, frame.commands[command], in_draw);
     const float diffuse = std::max(glm::dot(normal, light), 0.0f);
     const float facing = std::max(normal.z, 0.0f);
     return to_rgb(draw_color(command) * (0.15f + 0.65f * diffuse + 0.2f * facing));

@@ -49,14 +49,6 @@ std::string type_name(std::string_view width_name) {
   return text + "_t";
 }
 
-/// C++ field names that SystemVerilog reserves get a trailing underscore there.
-std::string field_name(std::string_view name) {
-  constexpr std::array<std::string_view, 12> kReserved = {"bit",      "cell",  "config", "context",
-                                                          "edge",     "event", "global", "local",
-                                                          "priority", "table", "tagged", "unique"};
-  return std::string(name) + (std::ranges::find(kReserved, name) != kReserved.end() ? "_" : "");
-}
-
 /// Elements of an array field; 0 for a field that is one number. A TileMask is one number of MaskBits.
 template <class Field>
 constexpr std::size_t kElements = 0;
@@ -84,7 +76,7 @@ std::string packed_struct(std::string_view type, std::string_view meaning) {
     if constexpr (kElements<Field> != 0) {
       text += " [" + std::to_string(kElements<Field> - 1) + ":0]";
     }
-    text += (sign == Sign::kSigned ? "" : " " + range) + " " + field_name(name) + ";\n";
+    text += (sign == Sign::kSigned ? "" : " " + range) + " " + std::string(name) + ";\n";
   });
   return text + "  } " + std::string(type) + ";\n";
 }

@@ -119,27 +119,21 @@ class Pipeline {
 
   void tile(const TileJob& job, bool whole) {
     EdgeEvaluatorCounters& counters = stats_->edge_evaluator;
-    Coverage coverage{.context = job.context,
-                      .tile_x = job.tile_x,
-                      .tile_y = job.tile_y,
-                      .e = {job.e[1], job.e[2]},
-                      .mask = {}};
     if (whole) {
-      ++counters.tiles_skipped;
-      coverage.mask = full_mask<TileSize>();
+      ++counters.tiles_skipped;  // with every edge accepted the evaluator has no edge to look at
     } else {
       ++counters.tiles;
       const int skipped = std::popcount(job.accept);
       counters.edges_skipped += static_cast<std::uint64_t>(skipped);
       counters.edges += static_cast<std::uint64_t>(3 - skipped);
-      if (record_jobs_) {
-        observer_->tile_job(job);
-      }
-      coverage.mask = edge_evaluator<TileSize>(job, config_.sub_pixel_bits);
-      if (!any(coverage.mask)) {
-        ++counters.tiles_empty;
-        return;
-      }
+    }
+    if (record_jobs_) {
+      observer_->tile_job(job);
+    }
+    const Coverage coverage = edge_evaluator<TileSize>(job, config_.sub_pixel_bits);
+    if (!any(coverage.mask)) {
+      ++counters.tiles_empty;
+      return;
     }
     quads(quad_generator<TileSize>(coverage));
   }
@@ -190,7 +184,6 @@ class Pipeline {
     stats_ = &draw.counters;
     surface_number_ = target.depth_surface;
     surface_ = surface_number_ == kNoSurface ? nullptr : &result_.surfaces[surface_number_];
-    first_triangle_ = command.first_index / 3;
     const DepthFormat format = surface_ == nullptr ? DepthFormat::kNone : surface_->format;
     const SetupState setup_state{.sub_pixel_bits = config_.sub_pixel_bits,
                                  .front_positive_area = command.has(Flag::kFrontPositiveArea),
@@ -215,6 +208,7 @@ class Pipeline {
       draw_triangles(FrontEnd(frame_, command, format, config_.sub_pixel_bits), command.index_count / 3,
                      setup_state);
     }
+    first_triangle_ += command.index_count / 3;
     result_.counters += draw.counters;
     if (surface_ != nullptr) {
       surface_->counters += draw.counters;
@@ -254,10 +248,10 @@ class Pipeline {
         ++counters.drawn;
         break;
     }
-    const auto context = static_cast<std::uint8_t>(counters.drawn);
+    const auto slot = static_cast<std::uint8_t>(counters.drawn);
     const std::uint64_t accepted_before = stats_->tile_walker.tiles_accepted;
     const std::uint64_t skipped_before = stats_->edge_evaluator.tiles_skipped;
-    tile_walker<TileSize>(triangle_, walker_, context, *this);
+    tile_walker<TileSize>(triangle_, walker_, slot, *this);
     stats_->tile_walker.tiles_by_block += (stats_->edge_evaluator.tiles_skipped - skipped_before) -
                                           (stats_->tile_walker.tiles_accepted - accepted_before);
   }
@@ -343,7 +337,7 @@ class Pipeline {
   Surface* surface_ = nullptr;  ///< null where the target has no depth
   std::uint32_t surface_number_ = kNoSurface;
   std::uint32_t draw_index_ = 0;
-  std::uint32_t first_triangle_ = 0;
+  std::uint32_t first_triangle_ = 0;  ///< triangles of the draws before this one
   EarlyZState early_z_;
   std::vector<ScreenTriangle> batch_;
   SetupTriangle triangle_;

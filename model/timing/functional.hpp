@@ -23,8 +23,8 @@ struct Surface {
   TiledImage<std::uint32_t> codes;      ///< stored depth codes
   TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535
   TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535
-  TiledImage<std::uint32_t>
-      visible;  ///< triangle of the frame that wrote the depth last, or kNothingVisible; kept on request
+  /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. Kept on request.
+  TiledImage<std::uint32_t> visible;
   Counters counters;  ///< of all draws on the surface
 };
 
@@ -75,7 +75,7 @@ class PacketObserver {
   [[nodiscard]] virtual bool wants_tile_jobs() const { return false; }
   virtual void quad(const QuadEvent&) {}
   virtual void decision(const DecisionEvent&) {}
-  virtual void tile_job(const TileJob&) {}  ///< only those that the edge evaluator has to look at
+  virtual void tile_job(const TileJob&) {}
   virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };
 

@@ -26,16 +26,18 @@ constexpr TileMask half_plane(std::int32_t local_edge, std::int32_t a, std::int3
 
 /// `job` must satisfy the widths of its packet for `sub_pixel_bits` (4 to 8).
 template <int TileSize>
-constexpr TileMask edge_evaluator(const TileJob& job, int sub_pixel_bits) {
-  TileMask mask = rect_mask<TileSize>(job.x_first, job.x_last, job.y_first, job.y_last);
+constexpr Coverage edge_evaluator(const TileJob& job, int sub_pixel_bits) {
+  Coverage coverage{
+      .slot = job.slot, .tile_x = job.tile_x, .tile_y = job.tile_y, .e = {job.e[1], job.e[2]}, .mask = {}};
+  coverage.mask = rect_mask<TileSize>(job.x_first, job.x_last, job.y_first, job.y_last);
   for (std::size_t i = 0; i < 3; ++i) {
     if ((job.accept >> i & 1) != 0) {
       continue;
     }
     const std::int32_t local = saturate_local_edge<TileSize>(drop_sub_pixel(job.e[i], sub_pixel_bits));
-    mask &= half_plane<TileSize>(local, job.a[i], job.b[i]);
+    coverage.mask &= half_plane<TileSize>(local, job.a[i], job.b[i]);
   }
-  return mask;
+  return coverage;
 }
 
 }  // namespace halfspace

@@ -69,7 +69,7 @@ struct SetupTriangle {
 
 /// tile_walker -> edge_evaluator: a tile that a triangle may touch.
 struct TileJob {
-  std::uint8_t context = 0;  ///< slot of the triangle's depth equation and draw state
+  std::uint8_t slot = 0;     ///< where the triangle's depth equation and draw state are kept
   std::uint16_t tile_x = 0;  ///< in tiles
   std::uint16_t tile_y = 0;
   std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in
@@ -83,7 +83,7 @@ struct TileJob {
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
-    visit("context", &TileJob::context, &Widths::ContextBits, Sign::kUnsigned);
+    visit("slot", &TileJob::slot, &Widths::SlotBits, Sign::kUnsigned);
     visit("tile_x", &TileJob::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("tile_y", &TileJob::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("e", &TileJob::e, &Widths::EdgeBits, Sign::kSigned);
@@ -105,7 +105,7 @@ struct TileMask {
 
 /// edge_evaluator -> quad_generator.
 struct Coverage {
-  std::uint8_t context = 0;
+  std::uint8_t slot = 0;
   std::uint16_t tile_x = 0;
   std::uint16_t tile_y = 0;
   std::array<std::int64_t, 2> e{};  ///< E of edges 1 and 2 at the tile origin: the depth inputs
@@ -113,7 +113,7 @@ struct Coverage {
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
-    visit("context", &Coverage::context, &Widths::ContextBits, Sign::kUnsigned);
+    visit("slot", &Coverage::slot, &Widths::SlotBits, Sign::kUnsigned);
     visit("tile_x", &Coverage::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("tile_y", &Coverage::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("e", &Coverage::e, &Widths::EdgeBits, Sign::kSigned);

@@ -68,9 +68,9 @@ inline CornerTest test_corners(const std::array<EdgeAtSample, 3>& edge, int size
 template <int TileSize, class Sink>
 class TileWalker {
  public:
-  TileWalker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t context, Sink& sink)
+  TileWalker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t slot, Sink& sink)
       : bounds_(triangle.bounds), config_(config), sink_(sink) {
-    job_.context = context;
+    job_.slot = slot;
     for (std::size_t i = 0; i < 3; ++i) {
       const Edge& edge = triangle.edge[i];
       edge_[i] = {.e = edge.c,
@@ -183,9 +183,8 @@ class TileWalker {
 
 /// Walks one triangle; see TileWalker for what `sink` must offer.
 template <int TileSize, class Sink>
-void tile_walker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t context,
-                 Sink& sink) {
-  TileWalker<TileSize, Sink>(triangle, config, context, sink).walk();
+void tile_walker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t slot, Sink& sink) {
+  TileWalker<TileSize, Sink>(triangle, config, slot, sink).walk();
 }
 
 }  // namespace halfspace

@@ -96,9 +96,10 @@ int run_all(const UnitBench& bench, const CommandLine& command_line) {
     if (!command_line.coverage.empty()) {
       run.options.coverage_file = numbered(command_line.coverage, i);
     }
-    const std::unique_ptr<StreamDut> dut = model.make(run.options.seed);
+    std::unique_ptr<StreamDut> dut = model.make(run.options.seed);
     const std::unique_ptr<Stimulus> stimulus = run.stimulus();
     const BenchResult result = run_bench(*dut, shape, *stimulus, run.options);
+    dut.reset();  // one model at a time: Verilator keeps the last one's context for the thread
     if (result.failure) {
       fmt::print("FAIL {} {}: {}\n{} in cycle {}: {}\n", bench.unit, model.name, describe(run),
                  to_string(result.failure->kind), result.failure->cycle, result.failure->message);

@@ -18,10 +18,10 @@ std::int64_t highest(int bits) { return (std::int64_t{1} << (bits - 1)) - 1; }
 /// Identity of a job: not looked at by the unit, so that every job has its own.
 void number(TileJob& job, std::uint64_t index, const Widths& widths) {
   const auto field = [&](int shift, int bits) { return index >> shift & ((std::uint64_t{1} << bits) - 1); };
-  job.context = static_cast<std::uint8_t>(field(0, widths.ContextBits));
-  job.tile_x = static_cast<std::uint16_t>(field(widths.ContextBits, widths.TileCoordBits));
+  job.slot = static_cast<std::uint8_t>(field(0, widths.SlotBits));
+  job.tile_x = static_cast<std::uint16_t>(field(widths.SlotBits, widths.TileCoordBits));
   job.tile_y =
-      static_cast<std::uint16_t>(field(widths.ContextBits + widths.TileCoordBits, widths.TileCoordBits));
+      static_cast<std::uint16_t>(field(widths.SlotBits + widths.TileCoordBits, widths.TileCoordBits));
 }
 
 /// A job in which every sample is covered.
@@ -161,7 +161,7 @@ void add_bounds(std::vector<TileJob>& jobs, const Widths& widths) {
 
 /// All bits of the fields that only pass through.
 void add_identities(std::vector<TileJob>& jobs, const Widths& widths) {
-  for (int bit = 0; bit < widths.ContextBits + 2 * widths.TileCoordBits; ++bit) {
+  for (int bit = 0; bit < widths.SlotBits + 2 * widths.TileCoordBits; ++bit) {
     TileJob job = full_job(widths);
     number(job, std::uint64_t{1} << bit, widths);
     jobs.push_back(job);
@@ -336,19 +336,14 @@ class ListStimulus final : public JobStimulus {
 }  // namespace
 
 Coverage reference_coverage(const TileJob& job, const Widths& widths) {
-  Coverage coverage{job.context, job.tile_x, job.tile_y, {job.e[1], job.e[2]}, {}};
   switch (widths.TileSize) {
     case 4:
-      coverage.mask = edge_evaluator<4>(job, widths.SubPixelBits);
-      break;
+      return edge_evaluator<4>(job, widths.SubPixelBits);
     case 8:
-      coverage.mask = edge_evaluator<8>(job, widths.SubPixelBits);
-      break;
+      return edge_evaluator<8>(job, widths.SubPixelBits);
     default:
-      coverage.mask = edge_evaluator<16>(job, widths.SubPixelBits);
-      break;
+      return edge_evaluator<16>(job, widths.SubPixelBits);
   }
-  return coverage;
 }
 
 std::vector<TileJob> directed_jobs(const Widths& widths) {

@@ -49,7 +49,7 @@ TEST_CASE("every pattern of bits survives unpack and pack") {
 
 TEST_CASE("the width of a packet is the sum of its fields") {
   constexpr Widths kBase;
-  // context, tile_x, tile_y, e[3], a[3], b[3], accept, four bounds
+  // slot, tile_x, tile_y, e[3], a[3], b[3], accept, four bounds
   STATIC_REQUIRE(packed_bits<TileJob>(kBase) == 8 + 11 + 11 + 3 * 51 + 3 * 25 + 3 * 25 + 3 + 4 * 3);
   STATIC_REQUIRE(packed_bits<Coverage>(kBase) == 8 + 11 + 11 + 2 * 51 + 64);
   STATIC_REQUIRE(kPackedWords<TileJob, 8, 8> == 11);

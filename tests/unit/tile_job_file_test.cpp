@@ -35,7 +35,7 @@ void write_two_jobs(const std::filesystem::path& path) {
   job.y_last = 15;
   TileJobWriter writer(path, kWidths);
   writer.write(job);
-  job.context = 255;
+  job.slot = 255;
   writer.write(job);
   writer.close();
 }
@@ -57,7 +57,7 @@ TEST_CASE("tile jobs come back from a file") {
   CHECK(read.jobs[0].e == std::array<std::int64_t, 3>{-1, 0, 1});
   CHECK(read.jobs[0].a == std::array<std::int32_t, 3>{-5, 6, 7});
   CHECK(read.jobs[0].y_last == 15);
-  CHECK(read.jobs[1].context == 255);
+  CHECK(read.jobs[1].slot == 255);
 }
 
 TEST_CASE("a file of tile jobs that was not closed leaves nothing") {

@@ -62,7 +62,7 @@ void check_walk(const ScreenTriangle& t, const SetupState& state, const WalkerCo
   std::map<std::pair<int, int>, int> visits;
   for (const auto& [job, whole] : recorded.tiles) {
     REQUIRE(++visits[{job.tile_x, job.tile_y}] == 1);
-    const TileMask mask = edge_evaluator<TileSize>(job, state.sub_pixel_bits);
+    const TileMask mask = edge_evaluator<TileSize>(job, state.sub_pixel_bits).mask;
     REQUIRE((!whole || mask == full_mask<TileSize>()));
     for (int y = 0; y < TileSize; ++y) {
       for (int x = 0; x < TileSize; ++x) {
