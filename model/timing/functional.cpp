@@ -316,8 +316,9 @@ class Pipeline {
                       .passed = quad_bits<TileSize>(passed, quad.x, quad.y),
                       .depth = {}};
       for (int i = 0; surface_ != nullptr && i < 4; ++i) {
-        const auto sample = static_cast<std::size_t>((quad.y + i / 2) * TileSize + quad.x + i % 2);
-        event.depth[static_cast<std::size_t>(i)] = (quad.mask >> i & 1) != 0 ? codes_[sample] : 0;
+        const int sample = (quad.y + i / 2) * TileSize + quad.x + i % 2;
+        const bool covered = (quad.mask >> i & 1) != 0;
+        event.depth[static_cast<std::size_t>(i)] = covered ? codes_[static_cast<std::size_t>(sample)] : 0;
       }
       observer_->quad(event);
     });

@@ -41,7 +41,8 @@ class VerilatedDut final : public StreamDut {
     model_->eval();
   }
   ~VerilatedDut() override {
-    // Verilator 5.006 takes the context of its destructors from the thread: another model's, if that was the last.
+    // Verilator 5.006 takes the context of its destructors from the thread: another model's, if that was the
+    // last.
     Verilated::threadContextp(&context_);
     if (trace_) {
       trace_->close();
