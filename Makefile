@@ -11,7 +11,7 @@ help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 .PHONY: demo
-demo: release ## Install what is missing, build, and rasterize a real frame into out/cc0_truck.
+demo: release-program ## Install what is missing, build, and rasterize a real frame into out/cc0_truck.
 	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --out out/cc0_truck
 
 .PHONY: test
@@ -26,13 +26,20 @@ test-slow: release $(PYTHON_TOOLS) ## Run the long campaigns too.
 	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
 
 .PHONY: bench
-bench: release ## Measure the functional model on the shipped frames.
+bench: release-program ## Measure the functional model on the shipped frames.
 	$(HALFSPACE) bench speed scenes/*.ptf.xz
 
 .PHONY: release debug
-release debug: packages
-	cmake --preset $@ $(if $(wildcard build/$@/CMakeCache.txt),>/dev/null,--log-level=WARNING)
+release debug: %: build/%/build.ninja
 	cmake --build --preset $@
+
+.PHONY: release-program
+release-program: build/release/build.ninja
+	cmake --build --preset release --target halfspace_cli
+
+build/%/build.ninja: CMakePresets.json | packages
+	cmake --preset $* --log-level=WARNING
+	@touch $@
 
 .PHONY: packages
 packages:
