@@ -70,6 +70,7 @@ class Pipeline {
         record_decisions_(observer != nullptr && observer->wants_decisions()),
         record_jobs_(observer != nullptr && observer->wants_tile_jobs()) {
     make_surfaces(keep_visible);
+    find_written_surfaces();
   }
 
   FrameResult run() {
@@ -117,10 +118,11 @@ class Pipeline {
     }
   }
 
-  void tile(const TileJob& job, bool whole) {
+  void tile(const TileJob& job, TileWork work) {
     EdgeEvaluatorCounters& counters = stats_->edge_evaluator;
-    if (whole) {
-      ++counters.tiles_skipped;  // with every edge accepted the evaluator has no edge to look at
+    stats_->tile_walker.tiles_by_block += work == TileWork::kWholeByBlock ? 1 : 0;
+    if (work != TileWork::kEvaluate) {
+      ++counters.tiles_skipped;  // every edge is accepted: the evaluator has none to look at
     } else {
       ++counters.tiles;
       const int skipped = std::popcount(job.accept);
@@ -159,6 +161,16 @@ class Pipeline {
       surface.survivors = {width, height, TileSize, 0};
       if (keep_visible) {
         surface.visible = {width, height, TileSize, kNothingVisible};
+      }
+    }
+  }
+
+  void find_written_surfaces() {
+    depth_written_.resize(result_.surfaces.size());
+    for (const Command& command : frame_.commands) {
+      const std::uint32_t surface = frame_.targets[command.target].depth_surface;
+      if (command.kind == CommandKind::kDraw && command.has(Flag::kDepthWrite) && surface != kNoSurface) {
+        depth_written_[surface] = true;
       }
     }
   }
@@ -202,6 +214,8 @@ class Pipeline {
                 .interpolator = config_.interpolator,
                 .sub_pixel_bits = config_.sub_pixel_bits};
 
+    keeps_visible_ = surface_ != nullptr && !surface_->visible.empty() &&
+                     (early_z_.write || !depth_written_[surface_number_]);
     if (command.has(Flag::kNotFilled)) {
       ++result_.draws_not_filled;
     } else {
@@ -249,11 +263,7 @@ class Pipeline {
         break;
     }
     const auto slot = static_cast<std::uint8_t>(counters.drawn);
-    const std::uint64_t accepted_before = stats_->tile_walker.tiles_accepted;
-    const std::uint64_t skipped_before = stats_->edge_evaluator.tiles_skipped;
     tile_walker<TileSize>(triangle_, walker_, slot, *this);
-    stats_->tile_walker.tiles_by_block += (stats_->edge_evaluator.tiles_skipped - skipped_before) -
-                                          (stats_->tile_walker.tiles_accepted - accepted_before);
   }
 
   void quads(const QuadBurst& burst) {
@@ -284,7 +294,7 @@ class Pipeline {
     if (surface_ != nullptr) {
       count_samples<TileSize>(burst.coverage.mask, surface_->fragments.tile(tile_x, tile_y));
       count_samples<TileSize>(passed, surface_->survivors.tile(tile_x, tile_y));
-      if (early_z_.write && !surface_->visible.empty()) {
+      if (keeps_visible_) {
         mark_visible(passed, surface_->visible.tile(tile_x, tile_y));
       }
     }
@@ -332,6 +342,7 @@ class Pipeline {
   bool record_decisions_;
   bool record_jobs_;
   FrameResult result_;
+  std::vector<bool> depth_written_;  ///< by surface: some draw of the frame writes its depth
 
   // Of the draw at work.
   Counters* stats_ = nullptr;
@@ -340,6 +351,7 @@ class Pipeline {
   std::uint32_t draw_index_ = 0;
   std::uint32_t first_triangle_ = 0;  ///< triangles of the draws before this one
   EarlyZState early_z_;
+  bool keeps_visible_ = false;  ///< its survivors go into Surface::visible
   std::vector<ScreenTriangle> batch_;
   SetupTriangle triangle_;
   TileCodes<TileSize> codes_{};

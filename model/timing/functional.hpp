@@ -23,7 +23,8 @@ struct Surface {
   TiledImage<std::uint32_t> codes;      ///< stored depth codes
   TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535
   TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535
-  /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. Kept on request.
+  /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
+  /// where no draw writes depth, the one that passed last. Kept on request.
   TiledImage<std::uint32_t> visible;
   Counters counters;  ///< of all draws on the surface
 };

@@ -26,6 +26,13 @@ struct WalkerConfig {
 
 enum class TileVerdict : std::uint8_t { kReject = 0, kAccept = 1, kPartial = 2 };
 
+/// What is known of a tile that leaves the walker.
+enum class TileWork : std::uint8_t {
+  kEvaluate,      ///< some sample may be outside
+  kWhole,         ///< all its samples are covered
+  kWholeByBlock,  ///< the same, and its block said so
+};
+
 /// An edge in pixel steps, positioned at a sample.
 struct EdgeAtSample {
   std::int64_t e = 0;
@@ -62,7 +69,7 @@ inline CornerTest test_corners(const std::array<EdgeAtSample, 3>& edge, int size
 
 /// Walks one triangle. `sink` gets
 ///   sink.decision(x, y, size, verdict)  for every block and tile that is decided, x and y in pixels;
-///   sink.tile(job, whole)               for every tile that is not rejected; whole: all its samples are
+///   sink.tile(job, work)                for every tile that is not rejected.
 ///   covered.
 /// Blocks and, inside a block, tiles come in row order.
 template <int TileSize, class Sink>
@@ -146,7 +153,8 @@ class TileWalker {
         const TileVerdict verdict = verdict_of(test, fills(inside, TileSize));
         sink_.decision(x, y, TileSize, verdict);
         if (verdict != TileVerdict::kReject) {
-          emit(x, y, edge, test.accept, inside, verdict == TileVerdict::kAccept);
+          emit(x, y, edge, test.accept, inside,
+               verdict == TileVerdict::kAccept ? TileWork::kWhole : TileWork::kEvaluate);
         }
       }
     }
@@ -156,13 +164,13 @@ class TileWalker {
   void emit_tiles(const PixelRect& rect) {
     for (int y = rect.y_first; y <= rect.y_last; y += TileSize) {
       for (int x = rect.x_first; x <= rect.x_last; x += TileSize) {
-        emit(x, y, edges_at(x, y), 7, clip(x, y, TileSize), true);
+        emit(x, y, edges_at(x, y), 7, clip(x, y, TileSize), TileWork::kWholeByBlock);
       }
     }
   }
 
   void emit(int x, int y, const std::array<EdgeAtSample, 3>& edge, std::uint8_t accept,
-            const PixelRect& inside, bool whole) {
+            const PixelRect& inside, TileWork work) {
     job_.tile_x = static_cast<std::uint16_t>(x / TileSize);
     job_.tile_y = static_cast<std::uint16_t>(y / TileSize);
     job_.e = {edge[0].e, edge[1].e, edge[2].e};
@@ -171,7 +179,7 @@ class TileWalker {
     job_.x_last = static_cast<std::uint8_t>(inside.x_last - x);
     job_.y_first = static_cast<std::uint8_t>(inside.y_first - y);
     job_.y_last = static_cast<std::uint8_t>(inside.y_last - y);
-    sink_.tile(job_, whole);
+    sink_.tile(job_, work);
   }
 
   PixelRect bounds_;

@@ -42,6 +42,15 @@ std::uint32_t random_depth(TriangleSource& source, DepthFormat format) {
   return static_cast<std::uint32_t>(kind == 0 ? 0 : kind == 1 ? most : source.integer(0, most));
 }
 
+/// Any triangle, with depths of the format.
+ScreenTriangle random_triangle(TriangleSource& source, DepthFormat format) {
+  ScreenTriangle t = source.next();
+  for (ScreenVertex& v : t.v) {
+    v.z = random_depth(source, format);
+  }
+  return t;
+}
+
 }  // namespace
 
 TEST_CASE("barycentric depth is within one unit of the last place, and inside the range of the vertices") {
@@ -55,10 +64,7 @@ TEST_CASE("barycentric depth is within one unit of the last place, and inside th
   mpq_class worst = 0;
   int samples = 0;
   for (int n = 0; n < 1500; ++n) {
-    ScreenTriangle t = source.next();
-    for (ScreenVertex& v : t.v) {
-      v.z = random_depth(source, format);
-    }
+    const ScreenTriangle t = random_triangle(source, format);
     SetupTriangle triangle;
     if (setup(t, state, triangle) != SetupVerdict::kDrawn) {
       continue;
@@ -122,10 +128,7 @@ TEST_CASE("the plane is exact where its gradients are whole, and stays inside th
     state.depth_format = format;
     state.interpolator = DepthInterpolator::kPlane;
     for (int n = 0; n < 3000; ++n) {
-      ScreenTriangle t = source.next();
-      for (ScreenVertex& v : t.v) {
-        v.z = random_depth(source, format);
-      }
+      const ScreenTriangle t = random_triangle(source, format);
       SetupTriangle triangle;
       if (setup(t, state, triangle) != SetupVerdict::kDrawn) {
         continue;

@@ -21,10 +21,10 @@ struct Recorded {
     TileVerdict verdict;
   };
   std::vector<Decision> decisions;
-  std::vector<std::pair<TileJob, bool>> tiles;
+  std::vector<std::pair<TileJob, TileWork>> tiles;
 
   void decision(int x, int y, int size, TileVerdict verdict) { decisions.push_back({x, y, size, verdict}); }
-  void tile(const TileJob& job, bool whole) { tiles.emplace_back(job, whole); }
+  void tile(const TileJob& job, TileWork work) { tiles.emplace_back(job, work); }
 };
 
 /// Coverage of the target by definition.
@@ -60,10 +60,10 @@ void check_walk(const ScreenTriangle& t, const SetupState& state, const WalkerCo
   }
   std::vector<bool> walked(kSize * kSize);
   std::map<std::pair<int, int>, int> visits;
-  for (const auto& [job, whole] : recorded.tiles) {
+  for (const auto& [job, work] : recorded.tiles) {
     REQUIRE(++visits[{job.tile_x, job.tile_y}] == 1);
     const TileMask mask = edge_evaluator<TileSize>(job, state.sub_pixel_bits).mask;
-    REQUIRE((!whole || mask == full_mask<TileSize>()));
+    REQUIRE((work == TileWork::kEvaluate || mask == full_mask<TileSize>()));
     for (int y = 0; y < TileSize; ++y) {
       for (int x = 0; x < TileSize; ++x) {
         if (test<TileSize>(mask, x, y)) {
