@@ -92,7 +92,8 @@ glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t tri
   const glm::vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
   const float length = glm::length(normal);
   const glm::vec3 unit = length > 0 && std::isfinite(length) ? normal / length : glm::vec3(0, 0, 1);
-  return glm::dot(unit, v[0] + v[1] + v[2]) > 0 ? -unit : unit;  // towards the eye
+  const glm::vec3 away_from_eye = orthographic ? glm::vec3(0, 0, -1) : v[0] + v[1] + v[2];
+  return glm::dot(unit, away_from_eye) > 0 ? -unit : unit;
 }
 
 /// Calls paint(x, y) for each pixel and stores what it returns.

@@ -17,7 +17,7 @@ constexpr std::uint32_t kBatch = 256;
 /// scissor and target, in pixels.
 PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
   const auto last = [](std::int32_t first, std::int32_t extent, std::uint32_t size) {
-    return static_cast<std::int32_t>(std::min<std::int64_t>(std::int64_t{first} + extent, size)) - 1;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(std::int64_t{first} + extent, 0, size)) - 1;
   };
   return {.x_first = std::max(scissor.x, 0),
           .y_first = std::max(scissor.y, 0),

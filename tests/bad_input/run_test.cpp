@@ -1,5 +1,6 @@
 // A frame that the reader accepts runs to its end, whatever its bytes say.
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
@@ -7,6 +8,22 @@
 #include "halfspace/timing/functional.hpp"
 
 using namespace halfspace;
+
+TEST_CASE("a scissor may lie anywhere and have any size") {
+  constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t at : {kLeast, -1, 0, kMost}) {
+    for (const std::int32_t extent : {0, 1, kMost}) {
+      Frame frame = read_ptf(HALFSPACE_SCENES_DIR "/vkcube.ptf.xz");
+      for (Command& command : frame.commands) {
+        command.scissor = {at, at, extent, extent};
+      }
+      const FrameResult result = run_functional(frame, {}, false, nullptr);
+      const std::uint64_t fragments = result.counters.quad_generator.fragments;
+      CHECK(fragments == (at <= 0 && extent == kMost && at != kLeast ? 74783 : 0));
+    }
+  }
+}
 
 TEST_CASE("any byte of a frame may change: it is refused, or it runs and every fragment is accounted for") {
   std::vector<std::byte> bytes = read_bytes(HALFSPACE_SCENES_DIR "/vkcube.ptf.xz");
