@@ -89,7 +89,8 @@ std::uint32_t float_bits(std::uint64_t m, int exponent) {
   if (cut > width) {
     return 0;
   }
-  const std::uint64_t rounded = cut <= 0 ? m << -cut : (m + (std::uint64_t{1} << (cut - 1))) >> cut;
+  // one bit more than is kept, plus one, halved: m may fill all 64 bits, so nothing can be added to it
+  const std::uint64_t rounded = cut <= 0 ? m << -cut : ((m >> (cut - 1)) + 1) >> 1;
   const int place = exponent + cut;
   // Adding the mantissa with its hidden bit to a field that is one too low carries correctly, also after
   // rounding up to the next power of two and for subnormals, whose hidden bit is absent.

@@ -103,6 +103,27 @@ TEST_CASE("barycentric depth is within one unit of the last place, and inside th
   CHECK(worst.get_d() < (format == DepthFormat::kUnorm16 ? 0.501 : 0.58));
 }
 
+TEST_CASE("barycentric depth just below a power of two does not wrap") {
+  // 2A is a power of two, so the reciprocal has all its bits set, and the depth is 1 - 2^-30
+  const int leg = 1 << 22;  // 2^14 pixels
+  const std::uint32_t one = std::bit_cast<std::uint32_t>(1.0f);
+  const std::uint32_t less = std::bit_cast<std::uint32_t>(1.0f - 1.0f / 256);
+  const ScreenTriangle t{
+      {ScreenVertex{127, 127, one}, ScreenVertex{127 + leg, 127, less}, ScreenVertex{127, 127 + leg, less}},
+      0};
+  SetupState state = open_state(kSize);
+  state.depth_format = DepthFormat::kFloat32;
+  SetupTriangle triangle;
+  REQUIRE(setup(t, state, triangle) == SetupVerdict::kDrawn);
+  const mpq_class exact =
+      reference::exact_depth(grid(t),
+                             {vertex_value(state.depth_format, one), vertex_value(state.depth_format, less),
+                              vertex_value(state.depth_format, less)},
+                             reference::pixel_centre(0, 0, 8));
+  const auto e = [&](std::size_t i) { return triangle.edge[i].c + triangle.depth.bias[i]; };
+  REQUIRE(ulps_off(state.depth_format, barycentric_float(triangle.depth, e(1), e(2)), exact) <= 1);
+}
+
 TEST_CASE("the plane is exact where its gradients are whole, and stays inside the range everywhere") {
   SECTION("a slope of 4 codes a pixel in x and 3 in y") {
     SetupState state = open_state(kSize);
