@@ -41,8 +41,8 @@ struct Counters {
   std::uint64_t helper_fragments = 0;  ///< pixels of these blocks that are not covered
 };
 
-/// A depth surface after the frame. Arrays are row by row, row 0 on top. One that is never cleared starts
-/// at 1.
+/// A depth surface after the frame. Arrays are row by row, row 0 on top. A surface that is never cleared
+/// starts at 1.
 struct Surface {
   std::uint32_t index = 0;  ///< Target::depth_surface
   std::uint32_t width = 0;

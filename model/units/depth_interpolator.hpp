@@ -1,12 +1,11 @@
 /// Depth at a sample from the depth equation of its triangle: the two ways that hardware offers. Cost, error
 /// and the proof of the bounds: docs/numerics.md.
 ///
-/// barycentric: z = z0 + w1 (z1 - z0) + w2 (z2 - z0) with w_i = E_i / 2A by one reciprocal a triangle; for
-/// float32
-///   surfaces the sum of the three products w_i z_i, none of which is negative, so nothing cancels. Within
-///   one unit of the last stored place of the exact value, for every triangle.
-/// plane: z = origin + x dx + y dy with rounded gradients. Cheap a sample; wrong on slivers, whose gradients
-/// saturate.
+/// - barycentric: z = z0 + w1 (z1 - z0) + w2 (z2 - z0) with w_i = E_i / 2A by one reciprocal a triangle; on
+///   float32 surfaces the sum of the three products w_i z_i, none of which is negative, so nothing cancels.
+///   Within one unit of the last stored place of the exact value, for every triangle.
+/// - plane: z = origin + x dx + y dy with rounded gradients. Cheap a sample; wrong on slivers, whose
+///   gradients saturate.
 ///
 /// Both clamp the result to the range of the three vertices.
 #pragma once

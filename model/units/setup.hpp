@@ -2,8 +2,8 @@
 /// dropped.
 ///
 /// Edge functions with the top-left rule folded into the constant: J. Pineda, "A Parallel Algorithm for
-/// Polygon Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification,
-/// section 3.4.2.1.
+/// Polygon Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification, section
+/// 3.4.2.1.
 #pragma once
 
 #include "halfspace/numerics/depth.hpp"
