@@ -34,35 +34,89 @@ struct Switch {
   bool Config::*member;
 };
 
+/// Whether a key may change packets, or only the cycles in which they move.
+enum class Changes : std::uint8_t { kFunction, kTime };
+
 struct Key {
   std::string name;
   std::string unit;
   std::string help;
   std::variant<IntegerRange, IntegerChoice, Switch, NamedValues<DepthInterpolator>, NamedValues<LateZ>> kind;
+  Changes changes = Changes::kTime;
 };
+
+/// The smallest FIFO has an output register and a slot; the largest keeps the triangles behind the walker
+/// within the 256 contexts that a tile job can name.
+constexpr int kLeastFifo = 2;
+constexpr int kMostFifo = 64;
+constexpr int kMostEdgeFifo = 32;
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> table{
       {"late_z", "",
        "draws whose shader may discard, writes depth or has side effects: opaque = test and write, no_write "
        "= test only",
-       NamedValues<LateZ>{&Config::late_z, {"opaque", "no_write"}}},
+       NamedValues<LateZ>{&Config::late_z, {"opaque", "no_write"}}, Changes::kFunction},
       {"raster.sub_pixel_bits", "bits", "fraction bits of a snapped window coordinate",
-       IntegerRange{&Config::sub_pixel_bits, 4, 8}},
+       IntegerRange{&Config::sub_pixel_bits, 4, 8}, Changes::kFunction},
+      {"setup.queue", "triangles", "triangles whose verdict is known or under way, dropped ones included",
+       IntegerRange{&Config::setup_queue, kLeastFifo, kMostFifo}},
+      {"setup.interval", "cycles", "distance of drawn triangles: cycles that a stage of the divider works",
+       IntegerChoice{&Config::setup_interval, {1, 2, 4, 8, 16}}},
+      {"setup.fifo", "triangles", "output FIFO of setup",
+       IntegerRange{&Config::setup_fifo, kLeastFifo, kMostFifo}},
       {"walker.tile_size", "pixels", "side of the tile that the edge evaluator takes in one step",
-       IntegerChoice{&Config::tile_size, {4, 8, 16}}},
+       IntegerChoice{&Config::tile_size, {4, 8, 16}}, Changes::kFunction},
       {"walker.block_size", "pixels",
        "side of the block that the walker decides before its tiles; larger than a tile",
-       IntegerChoice{&Config::block_size, {8, 16, 32, 64}}},
+       IntegerChoice{&Config::block_size, {8, 16, 32, 64}}, Changes::kFunction},
       {"walker.block_level", "", "decide whole blocks first; off: every tile of the bounds is decided",
-       Switch{&Config::block_level}},
+       Switch{&Config::block_level}, Changes::kFunction},
       {"walker.trivial_reject", "", "drop blocks and tiles that are outside one edge",
-       Switch{&Config::trivial_reject}},
+       Switch{&Config::trivial_reject}, Changes::kFunction},
       {"walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside",
-       Switch{&Config::trivial_accept}},
+       Switch{&Config::trivial_accept}, Changes::kFunction},
+      {"walker.step_interval", "cycles", "cycles a step of the walker takes",
+       IntegerRange{&Config::walker_step_interval, 1, 8}},
+      {"walker.fifo", "tile jobs", "output FIFO of the walker",
+       IntegerRange{&Config::walker_fifo, kLeastFifo, kMostFifo}},
+      {"edge_evaluator.pipe_stages", "registers", "pipeline registers before the output FIFO",
+       IntegerRange{&Config::edge_pipe_stages, 1, 3}},
+      {"edge_evaluator.fifo", "tiles", "output FIFO of the edge evaluator",
+       IntegerRange{&Config::edge_fifo, kLeastFifo, kMostEdgeFifo}},
+      {"quad_generator.quads_per_cycle", "quads", "width of a beat; at most the quads of a tile",
+       IntegerChoice{&Config::quad_width, {1, 2, 4, 8, 16}}},
+      {"quad_generator.fifo", "bursts", "output FIFO of the quad generator; a burst is the quads of one tile",
+       IntegerRange{&Config::quad_fifo, kLeastFifo, kMostFifo}},
+      {"early_z.quads_per_cycle", "quads", "quads tested in a cycle; at most quad_generator.quads_per_cycle",
+       IntegerChoice{&Config::early_z_width, {1, 2, 4, 8, 16}}},
+      {"early_z.pending", "bursts", "bursts between the lookup of their lines and their test",
+       IntegerRange{&Config::early_z_pending, kLeastFifo, kMostFifo}},
+      {"early_z.fifo", "bursts", "output FIFO of early_z",
+       IntegerRange{&Config::early_z_fifo, kLeastFifo, kMostFifo}},
       {"depth.interpolator", "",
        "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers",
-       NamedValues<DepthInterpolator>{&Config::interpolator, {"plane", "barycentric"}}},
+       NamedValues<DepthInterpolator>{&Config::interpolator, {"plane", "barycentric"}}, Changes::kFunction},
+      {"z_cache.lines", "lines",
+       "lines of the z cache, all parts and ways together; room for 4 bytes a sample",
+       IntegerChoice{&Config::z_lines, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}}},
+      {"z_cache.ways", "lines", "lines of a set", IntegerChoice{&Config::z_ways, {1, 2, 4, 8, 16}}},
+      {"z_cache.parts", "", "a line holds a tile, or this part of its rows",
+       IntegerChoice{&Config::z_parts, {1, 2, 4}}},
+      {"z_cache.misses_in_flight", "lines", "fill buffers; at least z_cache.parts",
+       IntegerRange{&Config::z_misses_in_flight, 1, 64}},
+      {"z_cache.write_buffers", "lines", "lines on their way to memory; at least z_cache.parts",
+       IntegerRange{&Config::z_write_buffers, 1, 64}},
+      {"z_cache.fast_clear", "", "a clear of a whole surface marks its lines; off: it is drawn",
+       Switch{&Config::fast_clear}, Changes::kFunction},
+      {"z_cache.clear_tiles", "tiles", "tiles that a fast clear marks in a cycle",
+       IntegerChoice{&Config::z_clear_tiles, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
+      {"memory.latency", "cycles", "from a request to the first of its data",
+       IntegerRange{&Config::memory_latency, 1, 65535}},
+      {"memory.read_bytes", "bytes", "read in a cycle",
+       IntegerChoice{&Config::memory_read_bytes, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
+      {"memory.write_bytes", "bytes", "written in a cycle",
+       IntegerChoice{&Config::memory_write_bytes, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
   };
   return table;
 }
@@ -186,7 +240,8 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
 std::vector<ConfigKey> config_keys(const Config& config) {
   std::vector<ConfigKey> list;
   for (const Key& key : keys()) {
-    list.push_back({key.name, value_text(key, config), legal_values(key), key.unit, key.help});
+    list.push_back({key.name, value_text(key, config), legal_values(key), key.unit, key.help,
+                    key.changes == Changes::kTime});
   }
   return list;
 }
@@ -221,11 +276,28 @@ Config read_config(const std::filesystem::path& path) {
 }
 
 void validate(const Config& config) {
-  if (config.block_size <= config.tile_size) {
-    throw InputError(
-        fmt::format("configuration key 'walker.block_size' is {}; legal: larger than 'walker.tile_size' ({})",
-                    config.block_size, config.tile_size));
-  }
+  const auto demand = [](bool legal, const char* key, int value, const std::string& what) {
+    if (!legal) {
+      throw InputError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
+    }
+  };
+  demand(config.block_size > config.tile_size, "walker.block_size", config.block_size,
+         fmt::format("larger than 'walker.tile_size' ({})", config.tile_size));
+  const int quads = config.tile_size * config.tile_size / 4;
+  demand(config.quad_width <= quads, "quad_generator.quads_per_cycle", config.quad_width,
+         fmt::format("at most the quads of a tile ({})", quads));
+  demand(config.early_z_width <= config.quad_width, "early_z.quads_per_cycle", config.early_z_width,
+         fmt::format("at most 'quad_generator.quads_per_cycle' ({})", config.quad_width));
+  const int rows = config.tile_size / 2;
+  demand(config.z_parts <= rows, "z_cache.parts", config.z_parts,
+         fmt::format("at most the rows of quads of a tile ({})", rows));
+  demand(config.z_lines >= config.z_parts * config.z_ways, "z_cache.lines", config.z_lines,
+         fmt::format("at least 'z_cache.ways' times 'z_cache.parts' ({})", config.z_parts * config.z_ways));
+  const std::string one_a_part = fmt::format("at least 'z_cache.parts' ({})", config.z_parts);
+  demand(config.z_misses_in_flight >= config.z_parts, "z_cache.misses_in_flight", config.z_misses_in_flight,
+         one_a_part);
+  demand(config.z_write_buffers >= config.z_parts, "z_cache.write_buffers", config.z_write_buffers,
+         one_a_part);
 }
 
 std::string to_toml(const Config& config) {

@@ -26,15 +26,40 @@ struct Config {
   bool trivial_accept = true;
   DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
   LateZ late_z = LateZ::kOpaque;
+
+  // Time; docs/timing.md and the pages of the units say what each means.
+  int setup_queue = 8;
+  int setup_interval = 1;
+  int setup_fifo = 24;
+  int walker_step_interval = 1;
+  int walker_fifo = 16;
+  int edge_pipe_stages = 2;
+  int edge_fifo = 4;
+  int quad_width = 4;
+  int quad_fifo = 4;
+  int early_z_width = 4;
+  int early_z_pending = 32;
+  int early_z_fifo = 16;
+  int z_lines = 128;
+  int z_ways = 4;
+  int z_parts = 1;
+  int z_misses_in_flight = 16;
+  int z_write_buffers = 4;
+  bool fast_clear = true;
+  int z_clear_tiles = 64;
+  int memory_latency = 100;
+  int memory_read_bytes = 64;
+  int memory_write_bytes = 64;
 };
 
 /// One key as a user sees it.
 struct ConfigKey {
-  std::string name;   ///< section.key, as in TOML and --set
-  std::string value;  ///< of the configuration asked about
-  std::string legal;  ///< for people: "4 to 8", "plane or barycentric"
-  std::string unit;   ///< empty where there is none
-  std::string help;   ///< one line
+  std::string name;     ///< section.key, as in TOML and --set
+  std::string value;    ///< of the configuration asked about
+  std::string legal;    ///< for people: "4 to 8", "plane or barycentric"
+  std::string unit;     ///< empty where there is none
+  std::string help;     ///< one line
+  bool timing = false;  ///< changes when, never what
 };
 
 /// Every key in the order of the reference, with its value in `config`.

@@ -52,7 +52,14 @@ namespace halfspace {
   C(untested,          "fragments that passed because the test is off")       \
   C(survivors,         "fragments that passed")                               \
   C(written,           "fragments that wrote their depth")                    \
-  C(tiles_killed,      "tiles none of whose fragments passed")
+  C(tiles_killed,      "tiles none of whose fragments passed")              \
+  C(z_bursts,          "tiles that had to do with stored depth")            \
+  C(z_hits,            "their parts that were in the z cache")              \
+  C(z_misses,          "their parts that were not")                         \
+  C(z_cleared,         "misses made from the clear value, not fetched")     \
+  C(z_evicted,         "lines written back because others took their place") \
+  C(bytes_read,        "fetched from memory")                               \
+  C(bytes_written,     "written back, the flush at the end not counted")
 // clang-format on
 
 /// Defines struct NAME of 64-bit counters, with fields(visit) calling visit(name, help, member) for each, and

@@ -21,12 +21,13 @@ class TiledImage {
         height_(height),
         tile_size_(tile_size),
         tiles_x_((width + tile_size - 1) / tile_size),
-        values_(static_cast<std::size_t>(tiles_x_) * ((height + tile_size - 1) / tile_size) * tile_size *
-                    tile_size,
-                value) {}
+        tiles_y_((height + tile_size - 1) / tile_size),
+        values_(static_cast<std::size_t>(tiles_x_) * tiles_y_ * tile_size * tile_size, value) {}
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int tiles_x() const { return tiles_x_; }
+  [[nodiscard]] int tiles_y() const { return tiles_y_; }
   [[nodiscard]] bool empty() const { return values_.empty(); }
 
   [[nodiscard]] Value* tile(int tile_x, int tile_y) {
@@ -58,6 +59,7 @@ class TiledImage {
   int height_ = 0;
   int tile_size_ = 1;
   int tiles_x_ = 0;
+  int tiles_y_ = 0;
   std::vector<Value> values_;
 };
 

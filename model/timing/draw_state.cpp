@@ -1,0 +1,137 @@
+#include "halfspace/timing/draw_state.hpp"
+
+#include <algorithm>
+
+namespace halfspace {
+namespace {
+
+/// A draw whose fragments only the shader can judge, so that hardware tests them after it.
+bool tests_late(const Command& draw) {
+  return !draw.has(Flag::kEarlyTestsForced) &&
+         (draw.has(Flag::kShaderDiscards) || draw.has(Flag::kShaderWritesDepth) ||
+          draw.has(Flag::kShaderSideEffects) || draw.has(Flag::kAlphaToCoverage));
+}
+
+}  // namespace
+
+PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
+  const auto last = [](std::int32_t first, std::int32_t extent, std::uint32_t size) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(std::int64_t{first} + extent, 0, size)) - 1;
+  };
+  return {.x_first = std::max(scissor.x, 0),
+          .y_first = std::max(scissor.y, 0),
+          .x_last = last(scissor.x, scissor.width, target.width),
+          .y_last = last(scissor.y, scissor.height, target.height)};
+}
+
+WalkerConfig walker_config(const Config& config) {
+  return {.sub_pixel_bits = config.sub_pixel_bits,
+          .block_size = config.block_size,
+          .block_level = config.block_level,
+          .trivial_reject = config.trivial_reject,
+          .trivial_accept = config.trivial_accept};
+}
+
+ZCacheShape z_cache_shape(const Config& config) {
+  return {.lines = config.z_lines, .ways = config.z_ways, .parts = config.z_parts};
+}
+
+SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
+  return {.sub_pixel_bits = config.sub_pixel_bits,
+          .front_positive_area = draw.has(Flag::kFrontPositiveArea),
+          .cull_front = draw.has(Flag::kCullFront),
+          .cull_back = draw.has(Flag::kCullBack),
+          .bottom_left_rule = draw.has(Flag::kBottomLeftRule),
+          .bounds = drawable_rect(draw.scissor, target),
+          .depth_format = format,
+          .interpolator = config.interpolator};
+}
+
+EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config) {
+  const bool test = draw.has(Flag::kDepthTest) && format != DepthFormat::kNone;
+  return {
+      .test = test,
+      .write = test && draw.has(Flag::kDepthWrite) && (config.late_z == LateZ::kOpaque || !tests_late(draw)),
+      .func = draw.depth_func,
+      .format = format,
+      .interpolator = config.interpolator,
+      .sub_pixel_bits = config.sub_pixel_bits};
+}
+
+std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible) {
+  std::vector<Surface> surfaces;
+  for (const Target& target : frame.targets) {
+    if (target.depth_surface == kNoSurface) {
+      continue;
+    }
+    if (target.depth_surface >= surfaces.size()) {
+      surfaces.resize(target.depth_surface + 1);
+    }
+    Surface& surface = surfaces[target.depth_surface];
+    const int width = std::max(surface.codes.width(), static_cast<int>(target.width));
+    const int height = std::max(surface.codes.height(), static_cast<int>(target.height));
+    if (width == surface.codes.width() && height == surface.codes.height()) {
+      continue;
+    }
+    surface.format = target.depth_format;
+    surface.codes = {width, height, tile_size, clear_code(target.depth_format, 1)};
+    surface.fragments = {width, height, tile_size, 0};
+    surface.survivors = {width, height, tile_size, 0};
+    if (keep_visible) {
+      surface.visible = {width, height, tile_size, kNothingVisible};
+    }
+  }
+  return surfaces;
+}
+
+std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config) {
+  std::vector<ZSurface> places;
+  std::uint32_t first = 0;
+  for (const Surface& surface : surfaces) {
+    const auto tiles_x = static_cast<std::uint32_t>(surface.codes.tiles_x());
+    const auto tiles = tiles_x * static_cast<std::uint32_t>(surface.codes.tiles_y());
+    const int samples = config.tile_size * config.tile_size / config.z_parts;
+    places.push_back({.first_tile = first,
+                      .tiles_x = tiles_x,
+                      .tiles = tiles,
+                      .line_bytes = static_cast<std::uint32_t>(samples * sample_bytes(surface.format))});
+    first += tiles;
+  }
+  return places;
+}
+
+std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape) {
+  return surfaces.empty()
+             ? 0
+             : (surfaces.back().first_tile + surfaces.back().tiles) * static_cast<std::uint32_t>(shape.parts);
+}
+
+bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config) {
+  return config.fast_clear && rect.x_first == 0 && rect.y_first == 0 &&
+         rect.x_last == surface.codes.width() - 1 && rect.y_last == surface.codes.height() - 1;
+}
+
+DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config) {
+  const std::uint32_t z = format == DepthFormat::kFloat32 ? code : code << vertex_depth_fraction(format);
+  const auto vertex = [&](int x, int y) {
+    return ScreenVertex{.x = x << config.sub_pixel_bits, .y = y << config.sub_pixel_bits, .z = z};
+  };
+  const ScreenVertex top_left = vertex(rect.x_first, rect.y_first);
+  const ScreenVertex top_right = vertex(rect.x_last + 1, rect.y_first);
+  const ScreenVertex bottom_left = vertex(rect.x_first, rect.y_last + 1);
+  const ScreenVertex bottom_right = vertex(rect.x_last + 1, rect.y_last + 1);
+  return {.triangle = {ScreenTriangle{.v = {top_left, top_right, bottom_left}, .triangle = 0},
+                       ScreenTriangle{.v = {top_right, bottom_right, bottom_left}, .triangle = 1}},
+          .setup = {.sub_pixel_bits = config.sub_pixel_bits,
+                    .bounds = rect,
+                    .depth_format = format,
+                    .interpolator = config.interpolator},
+          .early_z = {.test = true,
+                      .write = true,
+                      .func = DepthFunc::kAlways,
+                      .format = format,
+                      .interpolator = config.interpolator,
+                      .sub_pixel_bits = config.sub_pixel_bits}};
+}
+
+}  // namespace halfspace

@@ -1,0 +1,46 @@
+/// What a command of a frame means for the units.
+#pragma once
+
+#include "halfspace/config/config.hpp"
+#include "halfspace/scene/frame.hpp"
+#include "halfspace/timing/frame_result.hpp"
+#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/setup.hpp"
+#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace {
+
+/// Scissor and target, in pixels.
+PixelRect drawable_rect(const Scissor& scissor, const Target& target);
+
+WalkerConfig walker_config(const Config& config);
+ZCacheShape z_cache_shape(const Config& config);
+
+/// `format` is that of the target's depth surface, none where it has none.
+SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
+EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
+
+/// Depth surfaces as they are before the first command, with no clear: depth 1.
+std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible);
+
+/// Where the tiles of each surface lie in memory; by surface number.
+std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config);
+
+/// Lines of memory that all surfaces take.
+std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape);
+
+/// True where the clear is done by the z cache: it covers a whole surface, and fast clear is on.
+bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config);
+
+/// A clear that is not done by the z cache: a rectangle of two triangles that goes through the pipe.
+struct DrawnClear {
+  std::array<ScreenTriangle, 2> triangle;
+  SetupState setup;
+  EarlyZState early_z;
+};
+
+/// `rect` must not be empty; `code` is the clear value as stored.
+DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config);
+
+}  // namespace halfspace
