@@ -3,6 +3,7 @@
 ///
 /// A Clock is told what passes; it may keep time, record, or do nothing (NoClock):
 ///
+///     void start(std::uint32_t lines)      the lines of memory that all surfaces take
 ///     void draw(std::uint32_t index)       the triangles that follow are of this draw, or of no draw
 ///     void dropped()                       setup dropped a triangle
 ///     void drawn()                         setup gave a triangle to the walker, whose tile jobs follow
@@ -50,6 +51,7 @@ struct ZFlush {
 };
 
 struct NoClock {
+  void start(std::uint32_t /*memory_lines*/) {}
   void draw(std::uint32_t /*index*/) {}
   void dropped() {}
   void drawn() {}
@@ -69,7 +71,9 @@ class Pipeline {
       : frame_(frame), config_(config), walker_(walker_config(config)), clock_(clock), observer_(observer) {
     result_.surfaces = make_surfaces(frame, TileSize, keep_visible);
     places_ = place_surfaces(result_.surfaces, config);
-    z_cache_ = ZCache(z_cache_shape(config), memory_lines(places_, z_cache_shape(config)));
+    const ZCacheShape shape = z_cache_shape(config);
+    z_cache_ = ZCache(shape, memory_lines(places_, shape));
+    clock.start(memory_lines(places_, shape));
     find_written_surfaces();
   }
 

@@ -1,0 +1,211 @@
+/// Turns the terms of the recurrence into stall reasons, occupancies and times of packets.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "halfspace/timing/cycle_stats.hpp"
+#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/timing/recurrence/machine.hpp"
+
+namespace halfspace {
+
+/// Occupancy of a link from the cycles in which its packets take and return their credits, in order.
+class LinkMeter {
+ public:
+  LinkMeter() = default;
+  explicit LinkMeter(int capacity) : cycles_(static_cast<std::size_t>(capacity) + 1) {}
+
+  /// Credit in use from cycle `take` on, usable again in cycle `back`. Both never go back in time.
+  void add(std::uint64_t take, std::uint64_t back) {
+    return_up_to(take);
+    pass(take);
+    back_[taken_++ % kMostCredits] = back;
+  }
+
+  /// The cycles by occupancy, up to cycle `end`, by which all credits are back.
+  Occupancy finish(std::uint64_t end) {
+    return_up_to(end);
+    pass(end);
+    return cycles_;
+  }
+
+ private:
+  void return_up_to(std::uint64_t cycle) {
+    while (returned_ != taken_ && back_[returned_ % kMostCredits] <= cycle) {
+      pass(back_[returned_ % kMostCredits]);
+      ++returned_;
+    }
+  }
+
+  void pass(std::uint64_t cycle) {
+    cycles_[taken_ - returned_] += cycle - last_;
+    last_ = cycle;
+  }
+
+  Occupancy cycles_;
+  std::array<std::uint64_t, kMostCredits> back_{};
+  std::size_t taken_ = 0;
+  std::size_t returned_ = 0;
+  std::uint64_t last_ = 0;
+};
+
+/// What RecurrenceCore tells. Every stage's cycles are split at the terms that held its packet back, in the
+/// order of the stall reasons.
+class CycleProbe {
+ public:
+  static constexpr bool kLooks = true;
+  using Cycle = std::uint64_t;
+
+  CycleProbe(const std::array<int, kFifos>& capacity, PacketTimes* times) : times_(times) {
+    for (std::size_t i = 0; i < kLinks; ++i) {
+      meter_[i] = LinkMeter(capacity[i]);
+    }
+  }
+
+  /// What follows belongs to this draw, or to none.
+  void draw(std::uint32_t index) {
+    in_draw_ = index != kNoDraw;
+    if (in_draw_) {
+      draws_.push_back({.end = end_, .stats = {}});
+    }
+  }
+
+  void decide(Cycle cull_next, Cycle free, Cycle head, Cycle divider, Cycle decide) {
+    link(Link::kSetupQueue, cull_next - 1, decide + 1);
+    split<3>(Stage::kSetup, free, {head, divider, decide}, 1);
+    note(&PacketTimes::decide, decide);
+  }
+
+  void accept(Cycle decide, Cycle free, Cycle taken) {
+    link(Link::kSetup, decide, taken);
+    if (taken > free) {
+      split<2>(Stage::kTileWalker, free, {taken - 1, taken}, 0);
+    }
+    note(&PacketTimes::accept, taken - 1);
+  }
+
+  void emit(Cycle free, Cycle stepped, Cycle emitted, Cycle back) {
+    link(Link::kTileWalker, emitted - 1, back);
+    StageCycles& walker = stage(Stage::kTileWalker);
+    walker.busy += stepped - free;
+    walker.stall[stall::kWalkerNoCredit] += emitted - stepped;
+    note(&PacketTimes::emit, emitted - 1);
+  }
+
+  void walked(Cycle free, Cycle done) { stage(Stage::kTileWalker).busy += done - free; }
+
+  void edge(Cycle free, Cycle visible, Cycle e, Cycle back) {
+    link(Link::kEdgeEvaluator, e, back);
+    split<2>(Stage::kEdgeEvaluator, free, {visible, e}, 1);
+    note(&PacketTimes::e, e);
+  }
+
+  void quad(Cycle free, Cycle visible, Cycle g, Cycle beats) {
+    split<2>(Stage::kQuadGenerator, free, {visible, g}, beats);
+    note(&PacketTimes::g, g);
+  }
+
+  void lookup(Cycle g, Cycle free, Cycle visible, Cycle f, Cycle moved) {
+    link(Link::kQuadGenerator, g, moved);
+    split<2>(Stage::kZLookup, free, {visible, f}, moved - f);
+    note(&PacketTimes::f, f);
+  }
+
+  /// A request that could be sent from `ready` on found a fill buffer in `buffer` and was sent in `r`; of
+  /// these cycles those count in which no beat moves any more, from `moved` on.
+  void request(Cycle moved, Cycle ready, Cycle buffer, Cycle r) {
+    StageCycles& lookup = stage(Stage::kZLookup);
+    const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };
+    lookup.stall[stall::kLookupFillBuffers] += after(buffer) - after(ready);
+    lookup.stall[stall::kLookupWriteBack] += after(r) - after(buffer);
+    lookup.stall[stall::kLookupRequest] += after(r + 1) - after(r);
+  }
+
+  void test(Cycle f, Cycle free, Cycle filled, Cycle slots, Cycle b, Cycle beats) {
+    link(Link::kEarlyZPending, f, b + beats);
+    split<4>(Stage::kEarlyZ, free, {f + kLookupLatency, filled, slots, b}, beats);
+    note(&PacketTimes::b, b);
+  }
+
+  void sink(Cycle b, Cycle y, Cycle next) {
+    link(Link::kEarlyZ, b, next);
+    end_ = next - 1;
+    if (in_draw_) {
+      draws_.back().end = end_;
+    }
+    note(&PacketTimes::y, y);
+  }
+
+  void read(Cycle cycles) { here().read_busy += cycles; }
+  void write(Cycle cycles) { here().write_busy += cycles; }
+
+  /// What follows, the flush, belongs to no draw.
+  void drained() { in_draw_ = false; }
+
+  FrameCycles finish(Cycle cycles) {
+    FrameCycles frame{.cycles = cycles, .stats = std::move(outside_), .draws = std::move(draws_)};
+    CycleStats& sum = frame.stats;
+    for (const DrawCycles& draw : frame.draws) {
+      for (std::size_t i = 0; i < kStages; ++i) {
+        sum.stage[i] += draw.stats.stage[i];
+      }
+      for (std::size_t i = 0; i < kLinks; ++i) {
+        sum.held[i] += draw.stats.held[i];
+        sum.packets[i] += draw.stats.packets[i];
+      }
+      sum.read_busy += draw.stats.read_busy;
+      sum.write_busy += draw.stats.write_busy;
+    }
+    for (StageCycles& stage : sum.stage) {
+      stage.stall[stall::kNoInput] += cycles - stage.total();
+    }
+    for (std::size_t i = 0; i < kLinks; ++i) {
+      sum.occupancy[i] = meter_[i].finish(cycles);
+    }
+    return frame;
+  }
+
+ private:
+  [[nodiscard]] CycleStats& here() { return in_draw_ ? draws_.back().stats : outside_; }
+  [[nodiscard]] StageCycles& stage(Stage which) { return here().stage[static_cast<std::size_t>(which)]; }
+
+  /// From `free` on the stage waited: for its first reason until cycle `until[0]`, then for its second until
+  /// until[1], ...; then it was busy.
+  template <std::size_t N>
+  void split(Stage which, Cycle free, const std::array<Cycle, N>& until, Cycle busy) {
+    StageCycles& cycles = stage(which);
+    Cycle at = free;
+    for (std::size_t i = 0; i < N; ++i) {
+      const Cycle to = std::max(at, until[i]);
+      cycles.stall[i] += to - at;
+      at = to;
+    }
+    cycles.busy += busy;
+  }
+
+  void link(Link which, Cycle take, Cycle back) {
+    const auto i = static_cast<std::size_t>(which);
+    meter_[i].add(take, back);
+    here().held[i] += back - take;
+    ++here().packets[i];
+  }
+
+  void note(std::vector<Cycle> PacketTimes::*stream, Cycle cycle) {
+    if (times_ != nullptr) {
+      (times_->*stream).push_back(cycle);
+    }
+  }
+
+  PacketTimes* times_;
+  std::array<LinkMeter, kLinks> meter_;
+  std::vector<DrawCycles> draws_;
+  CycleStats outside_;
+  bool in_draw_ = false;
+  Cycle end_ = 0;
+};
+
+}  // namespace halfspace

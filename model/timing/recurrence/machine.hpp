@@ -1,0 +1,96 @@
+/// The machine of a configuration as the numbers that the recurrence works with, one or several at a time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "halfspace/config/config.hpp"
+#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/cycle_stats.hpp"
+
+namespace halfspace {
+
+/// The later of two times.
+constexpr std::uint64_t later(std::uint64_t a, std::uint64_t b) { return std::max(a, b); }
+
+/// Quads of the largest tile.
+inline constexpr std::size_t kMostQuads = 64;
+
+/// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
+inline constexpr std::size_t kMostCredits = 64;
+
+/// Logarithm of the bytes of the largest line, 16x16 samples of 4 bytes.
+inline constexpr std::size_t kMostLineBytesLog2 = 10;
+
+/// FIFOs whose credits the recurrence follows: the links, and the buffers of the memory side.
+enum class Fifo : std::uint8_t {
+  kSetupQueue,
+  kSetup,
+  kTileWalker,
+  kEdgeEvaluator,
+  kQuadGenerator,
+  kEarlyZPending,
+  kEarlyZ,
+  kFillBuffers,
+  kWriteBuffers,
+};
+inline constexpr std::size_t kFifos = 9;
+
+/// T is a time: a number of cycles, or one for each of several machines.
+template <class T>
+struct Machine {
+  std::array<T, kMostQuads + 1> quad_beats;           ///< by the quads of a burst
+  std::array<T, kMostQuads + 1> test_beats;           ///< the same in early_z
+  std::array<T, kMostLineBytesLog2 + 1> read_cycles;  ///< by the logarithm of the bytes
+  std::array<T, kMostLineBytesLog2 + 1> write_cycles;
+  T setup_interval;
+  T step_interval;
+  T edge_latency;
+  T memory_latency;
+};
+
+inline std::array<int, kFifos> capacities(const Config& config) {
+  return {config.setup_queue,  config.setup_fifo,         config.walker_fifo,
+          config.edge_fifo,    config.quad_fifo,          config.early_z_pending,
+          config.early_z_fifo, config.z_misses_in_flight, config.z_write_buffers};
+}
+
+inline Machine<std::uint64_t> machine(const Config& config) {
+  Machine<std::uint64_t> m{};
+  for (std::size_t quads = 0; quads <= kMostQuads; ++quads) {
+    m.quad_beats[quads] = static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.quad_width));
+    m.test_beats[quads] = static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.early_z_width));
+  }
+  for (std::size_t i = 0; i <= kMostLineBytesLog2; ++i) {
+    m.read_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_read_bytes));
+    m.write_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_write_bytes));
+  }
+  m.setup_interval = static_cast<std::uint64_t>(config.setup_interval);
+  m.step_interval = static_cast<std::uint64_t>(config.walker_step_interval);
+  m.edge_latency = static_cast<std::uint64_t>(edge_latency(config));
+  m.memory_latency = static_cast<std::uint64_t>(config.memory_latency);
+  return m;
+}
+
+/// The credits of a FIFO of one machine: from which cycle on each is usable again, packet by packet.
+class Credits {
+ public:
+  explicit Credits(int capacity = 1) : capacity_(static_cast<std::size_t>(capacity)) {}
+
+  /// The cycle from which on the credit is usable that the next packet needs, or the one `ahead` after it.
+  [[nodiscard]] std::uint64_t usable(std::size_t ahead = 0) const {
+    return usable_[(given_ + ahead - capacity_) % kMostCredits];
+  }
+
+  /// The next packet leaves, and its credit is usable again from `cycle` on.
+  void give(std::uint64_t cycle) { usable_[given_++ % kMostCredits] = cycle; }
+
+ private:
+  std::array<std::uint64_t, kMostCredits> usable_{};
+  std::size_t capacity_;
+  std::size_t given_ = 0;
+};
+
+}  // namespace halfspace
