@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,12 +37,13 @@ inline constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
 
 /// What a tile job costs.
 struct JobWork {
-  std::uint32_t steps = 0;          ///< of the walker, since the job before, its own included
-  int quads = 0;                    ///< 0: no sample is covered, and nothing leaves the quad generator
-  std::uint32_t tile = 0;           ///< number of the tile among those of all surfaces
-  std::uint8_t touched = 0;         ///< bit i: part i of the tile has to do with stored depth
-  std::uint8_t written = 0;         ///< bit i: some fragment wrote to part i
-  const ZMisses* misses = nullptr;  ///< what the z cache said; null where nothing was touched
+  std::uint32_t steps = 0;   ///< of the walker, since the job before, its own included
+  int quads = 0;             ///< 0: no sample is covered, and nothing leaves the quad generator
+  std::uint32_t tile_x = 0;  ///< in tiles, where touched is not 0
+  std::uint32_t tile_y = 0;
+  std::uint8_t touched = 0;       ///< bit i: part i of the tile has to do with stored depth
+  std::uint8_t written = 0;       ///< bit i: some fragment wrote to part i
+  std::span<const ZMiss> misses{};  ///< the touched parts that the z cache did not have
 };
 
 /// A dirty line at the end of the frame.
@@ -268,14 +270,13 @@ class Pipeline {
     ZMisses misses;
     if (touches_depth(early_z_)) {
       const ZSurface& place = places_[surface_number_];
-      const std::uint32_t tile_x = burst.coverage.tile_x;
-      const std::uint32_t tile_y = burst.coverage.tile_y;
-      work.tile = place.line(tile_x, tile_y, 1, 0);
+      work.tile_x = burst.coverage.tile_x;
+      work.tile_y = burst.coverage.tile_y;
       work.touched = parts_of_mask<TileSize>(burst.coverage.mask, config_.z_parts);
       work.written = early_z_.write ? parts_of_mask<TileSize>(passed, config_.z_parts) : std::uint8_t{0};
-      misses = z_cache_.access(place, tile_x, tile_y, work.touched, work.written);
+      misses = z_cache_.access(place, work.tile_x, work.tile_y, work.touched, work.written);
       tally(stats_->early_z, std::popcount(work.touched), misses);
-      work.misses = &misses;
+      work.misses = misses.parts();
     }
     clock_.job(work);
   }

@@ -87,10 +87,9 @@ inline void tally(EarlyZCounters& counters, const EarlyZState& state, std::uint6
 /// A burst that touched `parts` lines.
 inline void tally(EarlyZCounters& counters, int parts, const ZMisses& misses) {
   ++counters.z_bursts;
-  counters.z_hits += static_cast<std::uint64_t>(parts - misses.count);
-  counters.z_misses += static_cast<std::uint64_t>(misses.count);
-  for (int i = 0; i < misses.count; ++i) {
-    const ZMisses::Part& part = misses.part[static_cast<std::size_t>(i)];
+  counters.z_hits += static_cast<std::uint64_t>(parts) - misses.count;
+  counters.z_misses += misses.count;
+  for (const ZMiss& part : misses.parts()) {
     counters.z_cleared += part.fetch ? 0 : 1;
     counters.bytes_read += part.fetch ? part.bytes : 0;
     counters.z_evicted += part.write_back ? 1 : 0;

@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "halfspace/units/early_z.hpp"
@@ -187,18 +188,22 @@ class ZLines {
   std::vector<bool> cleared_;
 };
 
-/// What a burst met in the cache, part by part in order; only of parts that missed.
+/// A part of a burst's tile that the cache did not have.
+struct ZMiss {
+  std::uint32_t line = 0;           ///< of memory
+  std::uint32_t victim = kNoZLine;  ///< of memory, the line that had to leave
+  std::uint16_t bytes = 0;          ///< of the line
+  std::uint16_t victim_bytes = 0;
+  bool fetch = false;       ///< asked for; else made from the clear value
+  bool write_back = false;  ///< the victim was dirty
+};
+
+/// The misses of a burst, in order of parts.
 struct ZMisses {
-  struct Part {
-    std::uint32_t line = 0;           ///< of memory
-    std::uint32_t victim = kNoZLine;  ///< of memory, the line that had to leave
-    std::uint16_t bytes = 0;          ///< of the line
-    std::uint16_t victim_bytes = 0;
-    bool fetch = false;       ///< asked for; else made from the clear value
-    bool write_back = false;  ///< the victim was dirty
-  };
-  int count = 0;
-  std::array<Part, kMaxZParts> part;
+  std::size_t count = 0;
+  std::array<ZMiss, kMaxZParts> part;
+
+  [[nodiscard]] std::span<const ZMiss> parts() const { return {part.data(), count}; }
 };
 
 /// Both halves of the cache, for those who take one burst after the other through lookup and test.
@@ -221,13 +226,12 @@ class ZCache {
       if (!found.hit) {
         const bool fetch = !lines_.cleared(line);
         const ZLines::Victim victim = lines_.replace(found.slot, line, surface.line_bytes);
-        misses.part[static_cast<std::size_t>(misses.count++)] = {
-            .line = line,
-            .victim = victim.line,
-            .bytes = static_cast<std::uint16_t>(surface.line_bytes),
-            .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
-            .fetch = fetch,
-            .write_back = victim.dirty};
+        misses.part[misses.count++] = {.line = line,
+                                       .victim = victim.line,
+                                       .bytes = static_cast<std::uint16_t>(surface.line_bytes),
+                                       .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
+                                       .fetch = fetch,
+                                       .write_back = victim.dirty};
       }
       if ((written >> i & 1) != 0) {
         lines_.mark_written(found.slot);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/timing/contract.hpp"
@@ -91,6 +92,33 @@ class Credits {
   std::array<std::uint64_t, kMostCredits> usable_{};
   std::size_t capacity_;
   std::size_t given_ = 0;
+};
+
+inline std::array<Credits, kFifos> make_credits(const Config& config) {
+  std::array<Credits, kFifos> credits;
+  const std::array<int, kFifos> capacity = capacities(config);
+  for (std::size_t i = 0; i < kFifos; ++i) {
+    credits[i] = Credits(capacity[i]);
+  }
+  return credits;
+}
+
+/// A time a row, 0 at first.
+class TimeTable {
+ public:
+  explicit TimeTable(std::uint32_t rows = 0) : times_(rows) {}
+  [[nodiscard]] std::uint64_t get(std::uint32_t row) const { return times_[row]; }
+  void set(std::uint32_t row, std::uint64_t time) { times_[row] = time; }
+
+ private:
+  std::vector<std::uint64_t> times_;
+};
+
+/// The recurrence of a single machine.
+struct OneMachine {
+  using Time = std::uint64_t;
+  using Credits = halfspace::Credits;
+  using Table = TimeTable;
 };
 
 }  // namespace halfspace

@@ -7,14 +7,6 @@
 namespace halfspace {
 namespace {
 
-std::array<Credits, kFifos> make_credits(const Config& config) {
-  std::array<Credits, kFifos> credits;
-  const std::array<int, kFifos> capacity = capacities(config);
-  for (std::size_t i = 0; i < kFifos; ++i) {
-    credits[i] = Credits(capacity[i]);
-  }
-  return credits;
-}
 
 /// The clock of a traversal.
 template <class Stalls>
@@ -50,7 +42,7 @@ class RecurrenceClock {
  private:
   const Config& config_;
   CycleProbe probe_;
-  RecurrenceCore<std::uint64_t, Credits, Stalls, CycleProbe> core_;
+  RecurrenceCore<OneMachine, Stalls, CycleProbe> core_;
   std::uint64_t cycles_ = 0;
 };
 

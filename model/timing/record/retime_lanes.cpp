@@ -1,0 +1,241 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "halfspace/timing/record/retime_lanes.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target, as Highway asks
+#include <hwy/highway.h>
+
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <new>
+#include <vector>
+
+#include "halfspace/timing/record/replay-inl.hpp"
+#include "halfspace/timing/record/retime.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using LaneNumbers = std::array<std::uint32_t, detail::kLanes>;
+using Tag = hn::CappedTag<std::uint32_t, detail::kLanes>;
+using Vector = hn::Vec<Tag>;
+constexpr std::size_t kVectors = detail::kLanes / hn::MaxLanes(Tag());
+
+/// A time on each of kLanes machines.
+class Lanes {
+ public:
+  Lanes() : Lanes(std::uint32_t{0}) {}
+  explicit Lanes(std::uint32_t cycles) {
+    for (Vector& vector : v_) {
+      vector = hn::Set(Tag(), cycles);
+    }
+  }
+  explicit Lanes(const std::uint32_t* cycles) {
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      v_[i] = hn::LoadU(Tag(), cycles + i * hn::Lanes(Tag()));
+    }
+  }
+  void store(std::uint32_t* cycles) const {
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      hn::StoreU(v_[i], Tag(), cycles + i * hn::Lanes(Tag()));
+    }
+  }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](Vector x, Vector y) { return hn::Add(x, y); });
+  }
+  friend Lanes operator+(const Lanes& a, std::uint32_t cycles) { return a + Lanes(cycles); }
+  friend Lanes operator*(const Lanes& a, std::uint32_t times) {
+    return each(a, Lanes(times), [](Vector x, Vector y) { return hn::Mul(x, y); });
+  }
+  friend Lanes operator&(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](Vector x, Vector y) { return hn::And(x, y); });
+  }
+  friend Lanes operator|(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](Vector x, Vector y) { return hn::Or(x, y); });
+  }
+  friend Lanes later(const Lanes& a, const Lanes& b) {
+    return each(a, b, [](Vector x, Vector y) { return hn::Max(x, y); });
+  }
+
+ private:
+  template <class Operation>
+  static Lanes each(const Lanes& a, const Lanes& b, const Operation& operation) {
+    Lanes result(a);
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      result.v_[i] = operation(a.v_[i], b.v_[i]);
+    }
+    return result;
+  }
+
+  Vector v_[kVectors];
+};
+
+/// A number of every machine.
+template <class Get>
+Lanes gather(std::span<const Config> configs, const Get& get) {
+  LaneNumbers values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {  // unused lanes repeat the first machine
+    values[i] = static_cast<std::uint32_t>(get(configs[i < configs.size() ? i : 0]));
+  }
+  return Lanes(values.data());
+}
+
+/// Rows of one number a lane. Memory is plain numbers: code of the standard library, which is not compiled
+/// for this processor, must not move vectors.
+class LaneTable {
+ public:
+  explicit LaneTable(std::size_t rows = 0)
+      : cycles_(hwy::AllocateAligned<std::uint32_t>(std::max<std::size_t>(rows, 1) * detail::kLanes)) {
+    if (cycles_ == nullptr) {
+      throw std::bad_alloc();
+    }
+    std::fill_n(cycles_.get(), rows * detail::kLanes, 0);
+  }
+  [[nodiscard]] Lanes get(std::size_t row) const { return Lanes(cycles_.get() + row * detail::kLanes); }
+  void set(std::size_t row, const Lanes& cycles) { cycles.store(cycles_.get() + row * detail::kLanes); }
+
+ private:
+  hwy::AlignedFreeUniquePtr<std::uint32_t[]> cycles_;
+};
+
+/// As Credits, where each lane has a capacity of its own. A set of machines has few different ones: each is a
+/// load and a mask.
+class LaneCredits {
+ public:
+  LaneCredits() = default;
+  explicit LaneCredits(const LaneNumbers& capacity) {
+    std::size_t most = 1;
+    for (const std::uint32_t c : capacity) {
+      most = std::max<std::size_t>(most, c);
+      if (std::find(capacities_.begin(), capacities_.end(), c) == capacities_.end()) {
+        capacities_.push_back(c);
+      }
+    }
+    masks_ = LaneTable(capacities_.size());
+    for (std::size_t i = 0; i < capacities_.size(); ++i) {
+      LaneNumbers mask{};
+      for (std::size_t lane = 0; lane < mask.size(); ++lane) {
+        mask[lane] = capacity[lane] == capacities_[i] ? 0xFFFFFFFFu : 0;
+      }
+      masks_.set(i, Lanes(mask.data()));
+    }
+    usable_ = LaneTable(std::bit_ceil(most));
+    wrap_ = std::bit_ceil(most) - 1;
+  }
+
+  [[nodiscard]] Lanes usable(std::size_t ahead = 0) const {
+    const std::size_t at = given_ + ahead;
+    Lanes result = usable_.get((at - capacities_[0]) & wrap_);
+    if (capacities_.size() > 1) {
+      result = result & masks_.get(0);
+      for (std::size_t i = 1; i < capacities_.size(); ++i) {
+        result = result | (usable_.get((at - capacities_[i]) & wrap_) & masks_.get(i));
+      }
+    }
+    return result;
+  }
+
+  void give(const Lanes& cycle) { usable_.set(given_++ & wrap_, cycle); }
+
+ private:
+  std::vector<std::size_t> capacities_;  ///< without repetition
+  LaneTable masks_;                      ///< by the position of a capacity: which lanes have it
+  LaneTable usable_;
+  std::size_t wrap_ = 0;
+  std::size_t given_ = 0;
+};
+
+struct MachineLanes {
+  using Time = Lanes;
+  using Credits = LaneCredits;
+  using Table = LaneTable;
+};
+
+std::array<LaneCredits, kFifos> lane_credits(std::span<const Config> configs) {
+  std::array<LaneCredits, kFifos> credits;
+  for (std::size_t fifo = 0; fifo < kFifos; ++fifo) {
+    LaneNumbers capacity{};
+    for (std::size_t i = 0; i < capacity.size(); ++i) {
+      capacity[i] = static_cast<std::uint32_t>(capacities(configs[i < configs.size() ? i : 0])[fifo]);
+    }
+    credits[fifo] = LaneCredits(capacity);
+  }
+  return credits;
+}
+
+Machine<Lanes> lane_machine(std::span<const Config> configs) {
+  std::vector<Machine<std::uint64_t>> machines;
+  for (const Config& config : configs) {
+    machines.push_back(machine(config));
+  }
+  const auto lanes_of = [&](const auto& get) {
+    LaneNumbers values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = static_cast<std::uint32_t>(get(machines[i < machines.size() ? i : 0]));
+    }
+    return Lanes(values.data());
+  };
+  using One = Machine<std::uint64_t>;
+  Machine<Lanes> all;
+  for (std::size_t i = 0; i <= kMostQuads; ++i) {
+    all.quad_beats[i] = lanes_of([i](const One& m) { return m.quad_beats[i]; });
+    all.test_beats[i] = lanes_of([i](const One& m) { return m.test_beats[i]; });
+  }
+  for (std::size_t i = 0; i <= kMostLineBytesLog2; ++i) {
+    all.read_cycles[i] = lanes_of([i](const One& m) { return m.read_cycles[i]; });
+    all.write_cycles[i] = lanes_of([i](const One& m) { return m.write_cycles[i]; });
+  }
+  all.setup_interval = lanes_of([](const One& m) { return m.setup_interval; });
+  all.step_interval = lanes_of([](const One& m) { return m.step_interval; });
+  all.edge_latency = lanes_of([](const One& m) { return m.edge_latency; });
+  all.memory_latency = lanes_of([](const One& m) { return m.memory_latency; });
+  return all;
+}
+
+}  // namespace
+
+void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
+                  RetimedFrame* results) {
+  NoProbe probe;
+  RecurrenceCore<MachineLanes, NoStalls, NoProbe> core(lane_machine(configs), lane_credits(configs),
+                                                       NoStalls{}, probe);
+  LaneNumbers cycles{};
+  replay(
+      record, trace, core,
+      [&](std::uint32_t tiles) {
+        return gather(configs, [&](const Config& config) { return fast_clear_cycles(tiles, config); });
+      },
+      [&](const auto& c) {
+        c.sink_next().store(cycles.data());
+        for (std::size_t i = 0; i < configs.size(); ++i) {
+          results[i].draw_end.push_back(std::max(cycles[i], 1u) - 1);
+        }
+      });
+  // lanes share the shape of the z cache, so the number of its lines too
+  core.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_lines)).store(cycles.data());
+  for (std::size_t i = 0; i < configs.size(); ++i) {
+    results[i].cycles = cycles[i];
+  }
+}
+
+}  // namespace halfspace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace halfspace::detail {
+
+HWY_EXPORT(retime_group);
+
+void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
+                  RetimedFrame* results) {
+  HWY_DYNAMIC_DISPATCH(retime_group)(record, trace, configs, results);
+}
+
+}  // namespace halfspace::detail
+#endif
