@@ -12,6 +12,8 @@ void add_run_command(CLI::App& app, int& status);
 void add_info_command(CLI::App& app, int& status);
 void add_config_command(CLI::App& app, int& status);
 void add_diff_command(CLI::App& app, int& status);
+void add_record_command(CLI::App& app, int& status);
+void add_retime_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
 
 }  // namespace halfspace

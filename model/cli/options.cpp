@@ -1,8 +1,11 @@
 #include "halfspace/cli/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
@@ -36,6 +39,44 @@ glm::vec3 parse_point(const char* option, const std::string& text) {
     throw InputError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
   }
   return {v[0], v[1], v[2]};
+}
+
+/// Longest a packet can be held back: as long as the slowest memory takes.
+constexpr std::uint32_t kMostStallCycles = 65535;
+
+/// Applies "POINT:PERCENT:MAX_CYCLES".
+void set_stall(StallPlan& plan, const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto point = std::find(kStallPointName.begin(), kStallPointName.end(), text.substr(0, colon));
+  const std::vector<std::uint32_t> numbers = colon == text.size()
+                                                 ? std::vector<std::uint32_t>{}
+                                                 : parse_list<std::uint32_t>(text.substr(colon + 1), ':');
+  if (point == kStallPointName.end() || numbers.size() != 2 || numbers[0] > 100 || numbers[1] < 1 ||
+      numbers[1] > kMostStallCycles) {
+    throw InputError(
+        fmt::format("--stall is '{}'; it must be POINT:PERCENT:MAX_CYCLES with POINT one of {}, PERCENT 0 to "
+                    "100, MAX_CYCLES 1 to {}",
+                    text, fmt::join(kStallPointName, ", "), kMostStallCycles));
+  }
+  StallPlan::Rate& rate = plan.rate[static_cast<std::size_t>(point - kStallPointName.begin())];
+  if (rate.max_cycles != 0) {
+    throw InputError(
+        fmt::format("--stall is '{}'; '{}' was given before, and may be given once", text, *point));
+  }
+  rate = {.percent = numbers[0], .max_cycles = numbers[1]};
+}
+
+std::optional<TimelineRange> parse_range(const char* option, const std::string& text) {
+  if (text.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
+  if (v.size() != 2 || v[0] > v[1]) {
+    throw InputError(
+        fmt::format("{} is '{}'; it must be FIRST:LAST, two integers from 0, the first not after the last",
+                    option, text));
+  }
+  return TimelineRange{.first = v[0], .last = v[1]};
 }
 
 }  // namespace
@@ -88,5 +129,49 @@ Camera InputOptions::camera() const {
 }
 
 Frame InputOptions::frame() const { return load(path, camera()); }
+
+void StallOptions::add_to(CLI::App& command) {
+  command
+      .add_option("--stall", stalls,
+                  fmt::format("hold back some packets at random, repeatable; POINT: {}",
+                              fmt::join(kStallPointName, ", ")))
+      ->type_name("POINT:PERCENT:MAX_CYCLES")
+      ->allow_extra_args(false);
+  command.add_option("--seed", seed, "of the stalls (default: 0)")->type_name("N");
+}
+
+StallPlan StallOptions::plan() const {
+  StallPlan plan;
+  if (!seed.empty()) {
+    const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(seed, ':');
+    if (v.size() != 1) {
+      throw InputError(fmt::format("--seed is '{}'; it must be an integer, 0 to {}", seed,
+                                   std::numeric_limits<std::uint64_t>::max()));
+    }
+    plan.seed = v[0];
+  }
+  for (const std::string& stall : stalls) {
+    set_stall(plan, stall);
+  }
+  return plan;
+}
+
+void TimelineOptions::add_to(CLI::App& command, CLI::Option* out) {
+  CLI::Option* timeline =
+      command
+          .add_flag("--timeline", wanted, "write what each stage did when, for Perfetto, to timeline.json")
+          ->needs(out);
+  command.add_option("--timeline-draws", draws, "only these draws, both included")
+      ->type_name("FIRST:LAST")
+      ->needs(timeline);
+  command.add_option("--timeline-cycles", cycles, "only these cycles, both included")
+      ->type_name("FIRST:LAST")
+      ->needs(timeline);
+}
+
+TimelineChoice TimelineOptions::choice() const {
+  return {.draws = parse_range("--timeline-draws", draws),
+          .cycles = parse_range("--timeline-cycles", cycles)};
+}
 
 }  // namespace halfspace

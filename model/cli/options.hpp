@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/report/timeline.hpp"
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
 
@@ -31,6 +33,26 @@ struct InputOptions {
   void add_to(CLI::App& command);
   [[nodiscard]] Camera camera() const;  ///< throws InputError
   [[nodiscard]] Frame frame() const;    ///< loaded and validated; throws InputError
+};
+
+/// --stall and --seed: what is injected into a run that has time.
+struct StallOptions {
+  std::vector<std::string> stalls;
+  std::string seed;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] bool given() const { return !stalls.empty() || !seed.empty(); }
+  [[nodiscard]] StallPlan plan() const;  ///< throws InputError
+};
+
+/// --timeline and what part of the frame it shows.
+struct TimelineOptions {
+  bool wanted = false;
+  std::string draws;
+  std::string cycles;
+
+  void add_to(CLI::App& command, CLI::Option* out);
+  [[nodiscard]] TimelineChoice choice() const;  ///< throws InputError
 };
 
 }  // namespace halfspace

@@ -1,17 +1,23 @@
 /// halfspace run: the main job.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/report/result_files.hpp"
+#include "halfspace/report/stats.hpp"
 #include "halfspace/report/tile_job_file.hpp"
+#include "halfspace/report/timeline.hpp"
 #include "halfspace/timing/functional.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 
 namespace halfspace {
 namespace {
@@ -19,6 +25,8 @@ namespace {
 struct RunOptions {
   InputOptions input;
   MachineOptions machine;
+  StallOptions stalls;
+  TimelineOptions timeline;
   std::string fidelity = "functional";
   std::string out;
   std::string tile_jobs;
@@ -27,18 +35,72 @@ struct RunOptions {
   bool no_pictures = false;
 };
 
-/// Records what was asked for and shows progress.
+/// A way to have time.
+struct Fidelity {
+  const char* name;
+  bool timed;
+  bool observed;  ///< fills a timeline
+  FrameResult (*run)(const Frame&, const Config&, bool keep_visible, PacketObserver*, TimedRun&,
+                     const RunOptions&);
+};
+
+constexpr std::array kFidelities{
+    Fidelity{
+        "functional", false, false,
+        [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer, TimedRun&,
+           const RunOptions&) { return run_functional(frame, config, keep_visible, observer); }},
+    Fidelity{"recurrence", true, true,
+             [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                TimedRun& timed,
+                const RunOptions&) { return run_recurrence(frame, config, keep_visible, observer, timed); }},
+};
+
+/// The fidelities for which `has` holds, as in "a, b".
+std::string fidelity_names(bool Fidelity::*has) {
+  std::string names;
+  for (const Fidelity& fidelity : kFidelities) {
+    names += fidelity.*has ? (names.empty() ? "" : ", ") + std::string(fidelity.name) : "";
+  }
+  return names;
+}
+
+/// Refuses options that are nothing to the fidelity.
+void check_fidelity(const Fidelity& fidelity, const RunOptions& options) {
+  const auto refuse = [&](const char* option, bool Fidelity::*needs) {
+    throw InputError(fmt::format("{} has no effect with --fidelity {}; legal: {}", option, fidelity.name,
+                                 fidelity_names(needs)));
+  };
+  if (!fidelity.timed && options.stalls.given()) {
+    refuse(options.stalls.stalls.empty() ? "--seed" : "--stall", &Fidelity::timed);
+  }
+  if (!fidelity.observed && options.timeline.wanted) {
+    refuse("--timeline", &Fidelity::observed);
+  }
+}
+
+/// Records what was asked for and shows progress. `timeline` may be null.
 class RunObserver final : public Recorder {
  public:
-  RunObserver(const Frame& frame, const Config& config, const Options& options, const std::string& tile_jobs)
-      : Recorder(frame, config.tile_size, options), bar_(frame.name) {
+  RunObserver(const Frame& frame, const Config& config, const Options& options, const std::string& tile_jobs,
+              Timeline* timeline)
+      : Recorder(frame, config.tile_size, options),
+        bar_(frame.name),
+        timeline_(timeline),
+        tile_size_(static_cast<std::uint32_t>(config.tile_size)) {
     if (!tile_jobs.empty()) {
       jobs_.emplace(tile_jobs, Widths{.SubPixelBits = config.sub_pixel_bits, .TileSize = config.tile_size});
     }
   }
 
-  [[nodiscard]] bool wants_tile_jobs() const override { return jobs_.has_value(); }
-  void tile_job(const TileJob& job) override { jobs_->write(job); }
+  [[nodiscard]] bool wants_tile_jobs() const override { return jobs_.has_value() || timeline_ != nullptr; }
+  void tile_job(const TileJob& job) override {
+    if (jobs_) {
+      jobs_->write(job);
+    }
+    if (timeline_ != nullptr) {
+      timeline_->tile(job.tile_x * tile_size_, job.tile_y * tile_size_);
+    }
+  }
   void draw_done(std::size_t done, std::size_t of) override { bar_.update(done, of); }
 
   void finish() {
@@ -50,6 +112,8 @@ class RunObserver final : public Recorder {
 
  private:
   ProgressBar bar_;
+  Timeline* timeline_;
+  std::uint32_t tile_size_;
   std::optional<TileJobWriter> jobs_;
 };
 
@@ -57,11 +121,39 @@ double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+void row(std::string_view unit, std::uint64_t value, const std::string& what) {
+  fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
+}
+
+/// Where the cycles went: each stage's two largest reasons to wait, memory.
+void print_cycles(const FrameResult& result, const FrameCycles& frame) {
+  const auto share = [&frame](std::uint64_t cycles) {
+    return fmt::format("{:.1f}%", percent(cycles, frame.cycles));
+  };
+  const auto quads = static_cast<double>(result.counters.quad_generator.quads);
+  row("cycles", frame.cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(frame.cycles)));
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageCycles& cycles = frame.stats.stage[i];
+    std::array<std::size_t, kMostStallReasons> reasons{0, 1, 2, 3, 4};
+    std::partial_sort(reasons.begin(), reasons.begin() + 2, reasons.end(),
+                      [&](std::size_t l, std::size_t r) { return cycles.stall[l] > cycles.stall[r]; });
+    std::string text = "busy";
+    for (const std::size_t reason : {reasons[0], reasons[1]}) {
+      if (cycles.stall[reason] != 0) {
+        text += fmt::format(", {} {}", kStageInfo[i].stall[reason], share(cycles.stall[reason]));
+      }
+    }
+    fmt::print("  {:<16}{:>12}  {}\n", kStageInfo[i].name, share(cycles.busy), text);
+  }
+  const std::uint64_t read = memory_bytes_read(result);
+  const std::uint64_t written = memory_bytes_written(result);
+  row("memory", read + written,
+      fmt::format("bytes; {} read ({} of the cycles), {} written ({})", read, share(frame.stats.read_busy),
+                  written, share(frame.stats.write_busy)));
+}
+
 void print_table(const Frame& frame, const FrameResult& result) {
   const Counters& c = result.counters;
-  const auto row = [](const char* unit, std::uint64_t value, const std::string& what) {
-    fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
-  };
   fmt::print("{}: {} draws on {} depth surfaces\n", frame.name, result.draws.size(), result.surfaces.size());
   row("front end", c.front_end.triangles,
       fmt::format("triangles; {} clipped away, {} cut, {} not finite", c.front_end.clipped_away,
@@ -90,6 +182,13 @@ void print_table(const Frame& frame, const FrameResult& result) {
 }
 
 void run(const RunOptions& options) {
+  const Fidelity& fidelity = *std::find_if(kFidelities.begin(), kFidelities.end(), [&](const Fidelity& each) {
+    return each.name == options.fidelity;  // one of them is: the parser has seen to it
+  });
+  check_fidelity(fidelity, options);
+  TimedRun timed;
+  timed.stalls = options.stalls.plan();
+  const TimelineChoice choice = options.timeline.choice();
   const Config config = options.machine.config();
   const Frame frame = options.input.frame();
   std::optional<OutputFolder> folder;
@@ -104,14 +203,25 @@ void run(const RunOptions& options) {
       record.tiles = folder->file("tiles.npy");
     }
   }
-  RunObserver observer(frame, config, record, options.tile_jobs);
-  const FrameResult result = run_functional(frame, config, record.sums, &observer);
+  std::optional<Timeline> timeline;
+  if (options.timeline.wanted) {
+    timed.observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
+  }
+  RunObserver observer(frame, config, record, options.tile_jobs, timeline ? &*timeline : nullptr);
+  const FrameResult result = fidelity.run(frame, config, record.sums, &observer, timed, options);
   observer.finish();
+  if (timeline) {
+    timeline->finish(timed.cycles.cycles);
+  }
   if (folder) {
-    write_result_files(*folder, frame, config, options.fidelity, result, observer);
+    write_result_files(*folder, frame, config, fidelity.name, result, fidelity.timed ? &timed : nullptr,
+                       observer);
     folder->commit();
   }
   print_table(frame, result);
+  if (fidelity.timed) {
+    print_cycles(result, timed.cycles);
+  }
   if (folder) {
     fmt::print("  results in {}\n", options.out);
   }
@@ -124,15 +234,21 @@ void add_run_command(CLI::App& app, int& /*status*/) {
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
   options->input.add_to(*command);
   options->machine.add_to(*command);
+  std::vector<std::string> fidelities;
+  for (const Fidelity& fidelity : kFidelities) {
+    fidelities.emplace_back(fidelity.name);
+  }
   command->add_option("--fidelity", options->fidelity, "how time is had")
-      ->check(CLI::IsMember({"functional"}))
+      ->check(CLI::IsMember(fidelities))
       ->capture_default_str();
+  options->stalls.add_to(*command);
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for results (default: only the table)")
           ->type_name("DIR");
   command->add_flag("--quads", options->quads, "record every quad in quads.npy")->needs(out);
   command->add_flag("--tiles", options->tiles, "record every decision of the walker in tiles.npy")
       ->needs(out);
+  options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
   command
       ->add_option("--tile-jobs", options->tile_jobs,

@@ -235,6 +235,20 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
   }
 }
 
+/// The configuration in the document that parse() gives; `name` stands for it in errors.
+template <class Parse>
+Config config_of(const std::string& name, const Parse& parse) {
+  Config config;
+  try {
+    apply_table(config, parse(), "");
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}: line {}: {}", name, error.source().begin.line, error.description()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", name, error.what()));
+  }
+  return config;
+}
+
 }  // namespace
 
 std::vector<ConfigKey> config_keys(const Config& config) {
@@ -262,17 +276,12 @@ void set_config(Config& config, std::string_view assignment) {
   set_config(config, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
+Config parse_config(std::string_view toml, const std::string& name) {
+  return config_of(name, [&] { return toml::parse(toml, name); });
+}
+
 Config read_config(const std::filesystem::path& path) {
-  Config config;
-  try {
-    apply_table(config, toml::parse_file(path.string()), "");
-  } catch (const toml::parse_error& error) {
-    throw InputError(
-        fmt::format("{}: line {}: {}", path.string(), error.source().begin.line, error.description()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
-  }
-  return config;
+  return config_of(path.string(), [&] { return toml::parse_file(path.string()); });
 }
 
 void validate(const Config& config) {

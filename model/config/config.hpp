@@ -74,6 +74,9 @@ void set_config(Config& config, std::string_view assignment);
 /// Reads a TOML file over the defaults. Throws InputError that names file, key, value and what is legal.
 Config read_config(const std::filesystem::path& path);
 
+/// The same from text; `name` stands for it in errors.
+Config parse_config(std::string_view toml, const std::string& name);
+
 /// Checks what no single key can: sizes that must fit each other. Throws InputError.
 void validate(const Config& config);
 

@@ -104,10 +104,20 @@ std::uint64_t element_count(const NpyArray& array) {
   return count;
 }
 
-std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::path& b_path) {
+/// Sets field `name`, where there is one, of every record to 0.
+void blank(const std::string& name, const std::vector<Field>& fields, std::size_t record_size,
+           NpyArray& array) {
+  for (const Field& field : fields) {
+    for (std::size_t at = field.offset; field.name == name && at < array.data.size(); at += record_size) {
+      std::memset(array.data.data() + at, 0, field.size * field.count);
+    }
+  }
+}
+
+std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::path& b_path, bool with_time) {
   const std::string name = a_path.filename().string();
-  const NpyArray a = read_npy(a_path);
-  const NpyArray b = read_npy(b_path);
+  NpyArray a = read_npy(a_path);
+  NpyArray b = read_npy(b_path);
   if (a.descr != b.descr || a.shape.size() != b.shape.size() || (a.shape.size() == 2 && a.shape != b.shape)) {
     return FileDifference{name, 1, fmt::format("dtype or shape: {} and {}", a.descr, b.descr)};
   }
@@ -118,6 +128,10 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
       throw InputError(fmt::format("{}: holds {} bytes, not the {} elements of {} bytes of its header",
                                    path->string(), array->data.size(), element_count(*array), size));
     }
+  }
+  if (!with_time) {
+    blank("cycle", fields, size, a);
+    blank("cycle", fields, size, b);
   }
   const std::size_t common = std::min(a.data.size(), b.data.size()) / size;
   FileDifference difference{.file = name, .count = 0, .first = ""};
@@ -166,7 +180,19 @@ Json read_stats(const fs::path& folder) {
   return stats;
 }
 
-std::optional<FileDifference> compare_stats(const Json& a, const Json& b) {
+void remove_time(Json& stats) {
+  stats.erase("cycles");
+  stats["frame"].erase("time");
+  for (Json& draw : stats["draws"]) {
+    draw.erase("time");
+  }
+}
+
+std::optional<FileDifference> compare_stats(Json a, Json b, bool with_time) {
+  if (!with_time) {
+    remove_time(a);
+    remove_time(b);
+  }
   std::uint64_t count = 0;
   std::string first;
   for (const char* part : {"frame", "surfaces", "draws", "cycles"}) {
@@ -204,6 +230,8 @@ ResultDifference compare_results(const fs::path& a, const fs::path& b) {
   const Json b_stats = read_stats(b);
   const std::set<std::string> a_files = arrays_of(a_stats);
   const std::set<std::string> b_files = arrays_of(b_stats);
+  const bool with_time =
+      !a_stats.value("cycles", Json()).is_null() && !b_stats.value("cycles", Json()).is_null();
   ResultDifference result;
   std::set_intersection(a_files.begin(), a_files.end(), b_files.begin(), b_files.end(),
                         std::back_inserter(result.compared));
@@ -212,12 +240,12 @@ ResultDifference compare_results(const fs::path& a, const fs::path& b) {
   std::stable_sort(result.compared.begin(), result.compared.end(),
                    [](const std::string& l, const std::string& r) { return rank(l) < rank(r); });
   for (const std::string& file : result.compared) {
-    if (auto difference = compare_arrays(a / file, b / file)) {
+    if (auto difference = compare_arrays(a / file, b / file, with_time)) {
       result.files.push_back(std::move(*difference));
     }
   }
   result.compared.emplace_back(kStatsFile);
-  if (auto difference = compare_stats(a_stats, b_stats)) {
+  if (auto difference = compare_stats(a_stats, b_stats, with_time)) {
     result.files.push_back(std::move(*difference));
   }
   return result;

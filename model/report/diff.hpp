@@ -21,9 +21,10 @@ struct ResultDifference {
   std::vector<std::string> only_in_one;  ///< not compared: the other run did not write it
 };
 
-/// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters in stats.json (not
-/// configuration, tool versions and pictures). Throws InputError where a folder is not a result or a file is
-/// damaged.
+/// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters and cycles in stats.json (not
+/// configuration, tool versions, pictures and timeline). Of a run without time and one with it, what has to
+/// do with time is left out: the field `cycle` of the quads too. Throws InputError where a folder is not a
+/// result or a file is damaged.
 ResultDifference compare_results(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace halfspace

@@ -74,7 +74,7 @@ void Recorder::quad(const QuadEvent& event) {
                                event.mask,
                                event.passed,
                                {z[0], z[1], z[2], z[3]},
-                               0});
+                               event.cycle});
   }
 }
 

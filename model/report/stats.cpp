@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "halfspace/numerics/error.hpp"
 
@@ -38,18 +40,101 @@ const char* format_name(DepthFormat format) {
   }
 }
 
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Of a frame or a draw: every stage's own cycles, those with something to do and the others by their reason.
+Json stages_json(const CycleStats& stats) {
+  Json json;
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageCycles& cycles = stats.stage[i];
+    Json& stage = json[std::string(kStageInfo[i].name)];
+    stage = {{"cycles", cycles.total()},
+             {"busy", cycles.busy},
+             {"utilisation", ratio(cycles.busy, cycles.total())}};
+    for (std::size_t k = 0; k < kMostStallReasons && !kStageInfo[i].stall[k].empty(); ++k) {
+      stage["stalls"][std::string(kStageInfo[i].stall[k])] = cycles.stall[k];
+    }
+  }
+  return json;
+}
+
+Json links_json(const CycleStats& stats) {
+  Json json;
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    Json& link = json[std::string(kLinkName[i])];
+    link = {{"packets", stats.packets[i]}, {"held", stats.held[i]}};
+    const Occupancy& occupancy = stats.occupancy[i];
+    const auto most = std::find_if(occupancy.rbegin(), occupancy.rend(), [](auto n) { return n != 0; });
+    if (most != occupancy.rend()) {  // of a frame that took time
+      const std::uint64_t cycles = std::accumulate(occupancy.begin(), occupancy.end(), std::uint64_t{0});
+      link["mean_occupancy"] = ratio(stats.held[i], cycles);
+      link["max_occupancy"] = occupancy.rend() - most - 1;
+      link["occupancy"] = occupancy;
+    }
+  }
+  return json;
+}
+
+Json memory_json(const CycleStats& stats, std::uint64_t bytes_read, std::uint64_t bytes_written) {
+  return {{"read_busy", stats.read_busy},
+          {"write_busy", stats.write_busy},
+          {"bytes_read", bytes_read},
+          {"bytes_written", bytes_written}};
+}
+
+Json frame_time_json(const FrameCycles& frame, const FrameResult& result) {
+  Json memory = memory_json(frame.stats, memory_bytes_read(result), memory_bytes_written(result));
+  memory["read_utilisation"] = ratio(frame.stats.read_busy, frame.cycles);
+  memory["write_utilisation"] = ratio(frame.stats.write_busy, frame.cycles);
+  return {{"cycles", frame.cycles},
+          {"quads_per_cycle", ratio(result.counters.quad_generator.quads, frame.cycles)},
+          {"stages", stages_json(frame.stats)},
+          {"links", links_json(frame.stats)},
+          {"memory", std::move(memory)}};
+}
+
+Json draw_time_json(const DrawCycles& draw, const EarlyZCounters& counters) {
+  return {{"end", draw.end},
+          {"stages", stages_json(draw.stats)},
+          {"links", links_json(draw.stats)},
+          {"memory", memory_json(draw.stats, counters.bytes_read, counters.bytes_written)}};
+}
+
+Json stalls_json(const StallPlan& plan) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < kStallPoints; ++i) {
+    const StallPlan::Rate& rate = plan.rate[i];
+    if (rate.percent != 0) {
+      json[kStallPointName[i]] = {{"percent", rate.percent}, {"max_cycles", rate.max_cycles}};
+    }
+  }
+  return json;
+}
+
 }  // namespace
 
+std::uint64_t memory_bytes_read(const FrameResult& result) {
+  return result.counters.early_z.bytes_read + result.drawn_clears.early_z.bytes_read;
+}
+
+std::uint64_t memory_bytes_written(const FrameResult& result) {
+  return result.counters.early_z.bytes_written + result.drawn_clears.early_z.bytes_written +
+         result.flushed_bytes;
+}
+
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result,
+                 const std::string& fidelity, const FrameResult& result, const TimedRun* timed,
                  const std::vector<std::string>& files) {
   Json json;
   json["schema"] = kStatsSchema;
   json["schema_version"] = kStatsSchemaVersion;
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
   json["fidelity"] = fidelity;
-  json["cycles"] = nullptr;  // functional has no time
-  json["seed"] = nullptr;    // and nothing random
+  json["cycles"] = timed == nullptr ? Json() : Json(timed->cycles.cycles);
+  json["seed"] = timed == nullptr ? Json() : Json(timed->stalls.seed);
+  json["stalls"] = timed == nullptr ? Json() : stalls_json(timed->stalls);
   for (const ConfigKey& key : config_keys(config)) {
     json["config"][key.name] = key.value;
   }
@@ -60,7 +145,13 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                    {"draws", result.draws.size()},
                    {"draws_not_filled", result.draws_not_filled},
                    {"depth_clears", result.clears},
-                   {"counters", counters_json(result.counters)}};
+                   {"flushed_lines", result.flushed_lines},
+                   {"flushed_bytes", result.flushed_bytes},
+                   {"counters", counters_json(result.counters)},
+                   {"drawn_clears", counters_json(result.drawn_clears)}};
+  if (timed != nullptr) {
+    json["frame"]["time"] = frame_time_json(timed->cycles, result);
+  }
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
@@ -80,6 +171,9 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"target", command.target},
                              {"surface", draw.surface == kNoSurface ? Json() : Json(draw.surface)},
                              {"counters", counters_json(draw.counters)}});
+    if (timed != nullptr) {
+      json["draws"].back()["time"] = draw_time_json(timed->cycles.draws[i], draw.counters.early_z);
+    }
   }
   json["files"] = files;
   std::ofstream file(path);

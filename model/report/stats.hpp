@@ -7,18 +7,24 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/functional.hpp"
+#include "halfspace/timing/frame_result.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 
 namespace halfspace {
 
 inline constexpr const char* kStatsFile = "stats.json";
 inline constexpr const char* kStatsSchema = "halfspace-stats";
-inline constexpr int kStatsSchemaVersion = 1;
+inline constexpr int kStatsSchemaVersion = 2;
 
-/// Writes stats.json to `path`. `files` lists the names of all files of the result, stats.json included.
-/// The content depends on frame, configuration and version only. Throws InputError.
+/// Bytes that went between the z cache and memory: of draws, of clears that are drawn, and of the flush.
+std::uint64_t memory_bytes_read(const FrameResult& result);
+std::uint64_t memory_bytes_written(const FrameResult& result);
+
+/// Writes stats.json to `path`. `timed` is null where the fidelity has no time. `files` lists the names of
+/// all files of the result, stats.json included. The content depends on frame, configuration, injected stalls
+/// and version only. Throws InputError.
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result,
+                 const std::string& fidelity, const FrameResult& result, const TimedRun* timed,
                  const std::vector<std::string>& files);
 
 }  // namespace halfspace

@@ -1,78 +1,13 @@
 // The program: its results, its errors, its exit status.
-#include <sys/wait.h>
+#include "program.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
+#include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "halfspace/report/npy.hpp"
 
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-namespace {
-
-struct Outcome {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string slurp(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A folder for one test, empty at first and removed afterwards.
-class Place {
- public:
-  Place() {
-    std::string pattern = (fs::temp_directory_path() / "halfspace_cli.XXXXXX").string();
-    REQUIRE(mkdtemp(pattern.data()) != nullptr);
-    path = pattern;
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  ~Place() { fs::remove_all(path); }
-
-  [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command = std::string(HALFSPACE_PROGRAM) + " " + arguments + " >" +
-                                (path / "out").string() + " 2>" + (path / "err").string() + " </dev/null";
-    const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(path / "out"), slurp(path / "err")};
-    return outcome;
-  }
-
-  fs::path path;
-};
-
-std::string scene(const char* name) { return std::string(HALFSPACE_SOURCE) + "/scenes/" + name; }
-
-std::set<std::string> entries(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
-}
-
-/// One line on stderr that holds all of `parts`, and a status that is not 0.
-void check_error(const Outcome& outcome, std::initializer_list<const char*> parts) {
-  CAPTURE(outcome.out, outcome.err);
-  CHECK(outcome.status != 0);
-  CHECK(outcome.status != -1);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-  for (const char* part : parts) {
-    CAPTURE(part);
-    CHECK(outcome.err.find(part) != std::string::npos);
-  }
-}
-
-}  // namespace
+using namespace halfspace::testing;
 
 TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
   const Place place;
@@ -85,9 +20,14 @@ TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
                                        "quads.npy",     "tiles.npy",  "shaded0.png",    "depth0.png",
                                        "overdraw0.png", "tiles0.png", "quads0.png"};
   CHECK(entries(out) == expected);
-  const Json stats = Json::parse(slurp(out / "stats.json"));
+  const Json stats = read_stats(out);
   CHECK(stats["files"].get<std::set<std::string>>() == expected);
-  CHECK(stats["schema_version"] == 1);
+  CHECK(stats["schema_version"] == 2);
+  CHECK(stats["cycles"].is_null());
+  CHECK(stats["seed"].is_null());
+  CHECK(stats["stalls"].is_null());
+  CHECK(!stats["frame"].contains("time"));
+  CHECK(!stats["draws"][0].contains("time"));
   CHECK(stats["frame"]["counters"]["quad_generator"]["fragments"] == 74783);
   CHECK(stats["config"]["walker.tile_size"] == "8");
 
@@ -165,6 +105,24 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
     CHECK(outcome.out.find("quads.npy: 1 differences, first: record 19163 (draw 0, triangle ") == 0);
     CHECK(outcome.out.find("mask ") != std::string::npos);
   }
+  SECTION("a run with time has the same function") {
+    REQUIRE(place.run(run + "/b --fidelity recurrence").status == 0);
+    const Outcome outcome = place.run(diff);
+    CAPTURE(outcome.out);
+    CHECK(outcome.status == 0);
+  }
+  SECTION("two runs with time are compared in time too") {
+    REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);
+    REQUIRE(place.run(run + "/b --fidelity recurrence").status == 0);
+    CHECK(place.run(diff).status == 0);
+    REQUIRE(place.run(run + "/b --fidelity recurrence --set memory.latency=101").status == 0);
+    const Outcome outcome = place.run(diff);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.find("quads.npy: ") == 0);
+    CHECK(outcome.out.find("cycle ") != std::string::npos);
+    CHECK(outcome.out.find("stats.json: ") != std::string::npos);
+    CHECK(outcome.out.find("frame/time/") != std::string::npos);
+  }
   SECTION("damage is an error") {
     fs::resize_file(place.path / "b" / "depth0.npy", 1000);
     check_error(place.run(diff), {"depth0.npy", "bytes"});
@@ -188,6 +146,23 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   check_error(place.run("run " + cube + " --set late_z"), {"late_z", "KEY=VALUE"});
   check_error(place.run("run " + cube + " --fidelity rtl"), {"rtl", "functional"});
   check_error(place.run("run " + cube + " --quads"), {"--quads", "--out"});
+  check_error(place.run("run " + cube + " --timeline"), {"--timeline", "--out"});
+  check_error(place.run("run " + cube + " --timeline-draws 0:1"), {"--timeline-draws", "--timeline"});
+  const std::string timed = "run " + cube + " --fidelity recurrence";
+  for (const char* stall : {"sink", "sink:10", "sink:10:4:1", "sink:101:4", "sink:-1:4", "sink:10:0",
+                            "sink:10:65536", "drain:10:4", "sink:10:", ":10:4"}) {
+    CAPTURE(stall);
+    check_error(place.run(timed + " --stall " + stall),
+                {"--stall", stall, "source, setup, tile_walker, edge_evaluator, quad_generator, sink",
+                 "0 to 100", "1 to 65535"});
+  }
+  check_error(place.run(timed + " --stall sink:10:4 --stall sink:10:5"),
+              {"--stall", "sink:10:5", "given before"});
+  for (const char* seed : {"-1", "many", "1:2", "18446744073709551616"}) {
+    check_error(place.run(timed + " --seed=" + seed), {"--seed", seed, "0 to 18446744073709551615"});
+  }
+  check_error(place.run("run " + cube + " --stall sink:10:4"), {"--stall", "functional", "recurrence"});
+  check_error(place.run("run " + cube + " --seed 1"), {"--seed", "functional", "recurrence"});
   check_error(place.run("run nothing.ptf"), {"nothing.ptf"});
   check_error(place.run("run " + scene("README.md")), {"README.md", ".ptf"});
   check_error(place.run("run " + cube + " --config nothing.toml"), {"nothing.toml"});
@@ -218,13 +193,61 @@ TEST_CASE("help is there for every command, and info and config say what they sh
   CHECK(bench.out.find("Mquads/s") != std::string::npos);
 }
 
-TEST_CASE("configs/baseline.toml lists every key with its default") {
+TEST_CASE("run: with time, quads leave in the order of their cycles, at most the width of early_z in one") {
   const Place place;
-  const Outcome defaults = place.run("config --toml");
-  CHECK(defaults.status == 0);
-  CHECK(slurp(fs::path(HALFSPACE_SOURCE) / "configs" / "baseline.toml") == defaults.out);
-  CHECK(place.run("config --config " + std::string(HALFSPACE_SOURCE) + "/configs/baseline.toml").out ==
-        place.run("config").out);
+  const fs::path out = place.path / "result";
+  REQUIRE(place
+              .run("run " + scene("vkcube.ptf.xz") + " --fidelity recurrence --quads --no-pictures --out " +
+                   out.string())
+              .status == 0);
+  const halfspace::NpyArray quads = halfspace::read_npy(out / "quads.npy");
+  constexpr std::size_t kRecord = 46;
+  constexpr std::size_t kCycleAt = 38;
+  std::uint64_t before = 0;
+  int together = 0;
+  for (std::size_t at = 0; at < quads.data.size(); at += kRecord) {
+    std::uint64_t cycle = 0;
+    std::memcpy(&cycle, quads.data.data() + at + kCycleAt, sizeof cycle);
+    REQUIRE(cycle >= before);
+    together = cycle == before ? together + 1 : 1;
+    REQUIRE(together <= 4);
+    before = cycle;
+  }
+  CHECK(before == read_stats(out)["draws"][0]["time"]["end"]);
+}
+
+TEST_CASE("run: stalls are a function of their seed, cost time and nothing else") {
+  const Place place;
+  const std::string run =
+      "run " + scene("vkcube.ptf.xz") + " --no-pictures --fidelity recurrence --out " + place.path.string();
+  const std::string stalls = " --stall sink:30:20 --stall tile_walker:10:65535";
+  REQUIRE(place.run(run + "/plain").status == 0);
+  REQUIRE(place.run(run + "/a --seed 7" + stalls).status == 0);
+  REQUIRE(place.run(run + "/b --seed 7" + stalls).status == 0);
+  REQUIRE(place.run(run + "/c --seed 8" + stalls).status == 0);
+  const auto stats = [&](const char* name) { return read_stats(place.path / name); };
+  CHECK(stats("a") == stats("b"));
+  CHECK(stats("a")["cycles"] != stats("c")["cycles"]);
+  CHECK(stats("a")["cycles"] > stats("plain")["cycles"]);
+  CHECK(stats("a")["seed"] == 7);
+  CHECK(stats("a")["stalls"] == Json{{"sink", {{"percent", 30}, {"max_cycles", 20}}},
+                                     {"tile_walker", {{"percent", 10}, {"max_cycles", 65535}}}});
+  CHECK(stats("plain")["seed"] == 0);
+  CHECK(stats("plain")["stalls"] == Json::object());
+  CHECK(stats("a")["frame"]["counters"] == stats("plain")["frame"]["counters"]);
+  CHECK(slurp(place.path / "a" / "depth0.npy") == slurp(place.path / "plain" / "depth0.npy"));
+}
+
+TEST_CASE("run: the table says where the cycles went, where there are some") {
+  const Place place;
+  const std::string run = "run " + scene("vkcube.ptf.xz");
+  CHECK(place.run(run).out.find("cycle") == std::string::npos);
+  const std::string table = place.run(run + " --fidelity recurrence").out;
+  CAPTURE(table);
+  for (const char* part : {"\n  cycles  ", "quads a cycle\n", "\n  z_lookup  ", "%  busy, ", "no_credit ",
+                           "\n  memory  ", "of the cycles), "}) {
+    CHECK(table.find(part) != std::string::npos);
+  }
 }
 
 TEST_CASE("a mesh runs with a camera of its own") {
@@ -236,7 +259,7 @@ TEST_CASE("a mesh runs with a camera of its own") {
                 (place.path / "r").string());
   REQUIRE(outcome.status == 0);
   // The square spans 1 / (2 tan 30 degrees * 2) of the height: 43.3 pixels on a side.
-  const Json stats = Json::parse(slurp(place.path / "r" / "stats.json"));
+  const Json stats = read_stats(place.path / "r");
   const double fragments = stats["frame"]["counters"]["quad_generator"]["fragments"];
   CHECK(fragments >= 43 * 43);
   CHECK(fragments <= 44 * 44);

@@ -86,6 +86,9 @@ struct FrameRecord {
   std::vector<RecordedAccess> accesses;
 };
 
+/// Most tiles of all surfaces together: 4 screens of 16384 x 16384 in the smallest tiles.
+inline constexpr std::uint64_t kMostRecordedTiles = std::uint64_t{1} << 26;
+
 /// Bands of a tile that a record tells apart.
 constexpr int recorded_bands(int tile_size) { return tile_size == 4 ? 2 : 4; }
 

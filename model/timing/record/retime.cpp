@@ -42,21 +42,41 @@ void check_retimable(const FrameRecord& record, const Config& config) {
   }
 }
 
-RetimedFrame retime(const FrameRecord& record, const Config& config) {
-  check_retimable(record, config);
-  return retime_one(record, trace_z_cache(record, z_cache_shape(config)), config);
+Retimer::Retimer(FrameRecord record) : record_(std::move(record)) { traced(z_cache_shape(record_.config)); }
+
+const Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
+  for (const Traced& known : traced_) {
+    if (known.shape == shape) {
+      return known;
+    }
+  }
+  ZTrace trace = trace_z_cache(record_, shape);
+  FrameWork work = record_work(record_, trace);
+  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = std::move(work)});
+  return traced_.back();
 }
 
-std::vector<RetimedFrame> retime(const FrameRecord& record, std::span<const Config> configs) {
+RetimedFrame Retimer::retime(const Config& config) {
+  check_retimable(record_, config);
+  return retime_one(record_, traced(z_cache_shape(config)).trace, config);
+}
+
+AnalyticFrame Retimer::analytic(const Config& config) {
+  check_retimable(record_, config);
+  return analytic_frame(traced(z_cache_shape(config)).work, config);
+}
+
+std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
+  for (const Config& config : configs) {
+    check_retimable(record_, config);
+  }
   std::vector<RetimedFrame> results(configs.size());
   std::vector<bool> done(configs.size(), false);
   for (std::size_t first = 0; first < configs.size(); ++first) {
-    check_retimable(record, configs[first]);
     if (done[first]) {
       continue;
     }
-    const ZCacheShape shape = z_cache_shape(configs[first]);
-    const ZTrace trace = trace_z_cache(record, shape);
+    const Traced& known = traced(z_cache_shape(configs[first]));
     std::vector<std::size_t> group;  // positions of what goes through in one pass
     const auto pass = [&] {
       std::vector<Config> machines;
@@ -64,20 +84,19 @@ std::vector<RetimedFrame> retime(const FrameRecord& record, std::span<const Conf
         machines.push_back(configs[i]);
       }
       std::vector<RetimedFrame> retimed(group.size());
-      detail::retime_lanes(record, trace, machines, retimed.data());
+      detail::retime_lanes(record_, known.trace, machines, retimed.data());
       for (std::size_t k = 0; k < group.size(); ++k) {
         results[group[k]] = std::move(retimed[k]);
       }
       group.clear();
     };
     for (std::size_t i = first; i < configs.size(); ++i) {
-      if (done[i] || z_cache_shape(configs[i]) != shape) {
+      if (done[i] || z_cache_shape(configs[i]) != known.shape) {
         continue;
       }
       done[i] = true;
-      if (detail::longest_time(record, trace, configs[i]) > std::numeric_limits<std::uint32_t>::max()) {
-        check_retimable(record, configs[i]);
-        results[i] = retime_one(record, trace, configs[i]);  // needs 64 bits
+      if (detail::longest_time(known.work, configs[i]) > std::numeric_limits<std::uint32_t>::max()) {
+        results[i] = retime_one(record_, known.trace, configs[i]);  // needs 64 bits
         continue;
       }
       group.push_back(i);
@@ -94,35 +113,29 @@ std::vector<RetimedFrame> retime(const FrameRecord& record, std::span<const Conf
 
 namespace detail {
 
-std::uint64_t longest_time(const FrameRecord& record, const ZTrace& trace, const Config& config) {
+std::uint64_t longest_time(const FrameWork& work, const Config& config) {
   const Machine<std::uint64_t> m = machine(config);
-  std::uint64_t triangles = 0;
-  std::uint64_t clears = 0;
-  for (const RecordedSegment& segment : record.segments) {
-    triangles += segment.dropped_after;
-    if (segment.kind == RecordedSegment::Kind::kFastClear) {
-      clears += static_cast<std::uint64_t>(fast_clear_cycles(record.surfaces[segment.surface].tiles, config));
-    }
+  DrawWork sum = work.drawn_clears;
+  for (const DrawWork& draw : work.draws) {
+    sum += draw;
   }
-  std::uint64_t steps = 0;
-  for (const RecordedTriangle& triangle : record.triangles) {
-    triangles += triangle.dropped_before + 1;
-    steps += triangle.steps_after;
+  std::uint64_t time = static_cast<std::uint64_t>(config.z_lines) + 64;
+  for (const std::uint32_t tiles : work.fast_clears) {
+    time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));
   }
-  std::uint64_t beats = 0;
-  for (const RecordedJob& job : record.jobs) {
-    steps += job.steps();
-    beats += m.quad_beats[static_cast<std::size_t>(job.quads())] +
-             m.test_beats[static_cast<std::size_t>(job.quads())];
-  }
-  const std::uint64_t each_triangle =
-      kSetupCullLatency + kSetupDivideLatency + m.setup_interval + 4;  // and the cycles that credits take
   const std::uint64_t each_job =
       kWalkerLatency + m.edge_latency + kQuadLatency + kLookupLatency + kTestLatency + 16;
-  const std::uint64_t each_line = m.memory_latency + m.read_cycles.back() + m.write_cycles.back() + 4;
-  return triangles * each_triangle + steps * m.step_interval + record.jobs.size() * each_job + beats +
-         (trace.misses.size() + trace.flush.size()) * each_line + clears +
-         static_cast<std::uint64_t>(config.z_lines) + 64;
+  for (std::size_t quads = 0; quads < sum.tiles.size(); ++quads) {
+    time += sum.tiles[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);
+  }
+  // 16 and 4: the cycles in which credits travel, and more than that
+  const std::uint64_t each_triangle = kSetupCullLatency + kSetupDivideLatency + m.setup_interval + 4;
+  time += sum.triangles * each_triangle + sum.steps * m.step_interval;
+  for (std::size_t i = 0; i < sum.fetched.size(); ++i) {
+    time += sum.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +
+            sum.written_back[i] * (m.write_cycles[i] + 4);
+  }
+  return time + work.flush.size() * (m.write_cycles.back() + 4);
 }
 
 }  // namespace detail

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
 #include <span>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
 #include "halfspace/timing/record/z_trace.hpp"
 
@@ -22,11 +24,34 @@ struct RetimedFrame {
 /// has to be recorded again.
 void check_retimable(const FrameRecord& record, const Config& config);
 
-/// Exactly the cycles of run_recurrence on `config`. Both must be valid and check_retimable.
-RetimedFrame retime(const FrameRecord& record, const Config& config);
+/// Times a record on machines. What the z cache says is found once for each shape of it, for the recorded one
+/// at the start, so a machine with another cache costs more the first time.
+class Retimer {
+ public:
+  explicit Retimer(FrameRecord record);
 
-/// The same for many machines: those with the same z cache share a pass, a SIMD lane each.
-std::vector<RetimedFrame> retime(const FrameRecord& record, std::span<const Config> configs);
+  [[nodiscard]] const FrameRecord& record() const { return record_; }
+
+  /// Exactly the cycles of run_recurrence on `config`, which must be valid. Throws as check_retimable.
+  RetimedFrame retime(const Config& config);
+
+  /// The same for many machines: those with the same z cache share a pass, a SIMD lane each.
+  std::vector<RetimedFrame> retime(std::span<const Config> configs);
+
+  /// The analytic fidelity on `config`. Throws as check_retimable.
+  AnalyticFrame analytic(const Config& config);
+
+ private:
+  struct Traced {
+    ZCacheShape shape;
+    ZTrace trace;
+    FrameWork work;
+  };
+  const Traced& traced(const ZCacheShape& shape);
+
+  FrameRecord record_;
+  std::list<Traced> traced_;  ///< a list: references stay valid
+};
 
 namespace detail {
 
@@ -37,8 +62,8 @@ inline constexpr std::size_t kLanes = 16;
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
                   RetimedFrame* results);
 
-/// A bound on the cycles of the record on a machine: every packet waits for every other.
-std::uint64_t longest_time(const FrameRecord& record, const ZTrace& trace, const Config& config);
+/// A bound on the cycles of a frame: no packet overlaps with another.
+std::uint64_t longest_time(const FrameWork& work, const Config& config);
 
 }  // namespace detail
 }  // namespace halfspace

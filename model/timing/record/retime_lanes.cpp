@@ -21,7 +21,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using LaneNumbers = std::array<std::uint32_t, detail::kLanes>;
+struct alignas(64) LaneNumbers : std::array<std::uint32_t, detail::kLanes> {};
 using Tag = hn::CappedTag<std::uint32_t, detail::kLanes>;
 using Vector = hn::Vec<Tag>;
 constexpr std::size_t kVectors = detail::kLanes / hn::MaxLanes(Tag());
@@ -30,49 +30,61 @@ constexpr std::size_t kVectors = detail::kLanes / hn::MaxLanes(Tag());
 class Lanes {
  public:
   Lanes() : Lanes(std::uint32_t{0}) {}
-  explicit Lanes(std::uint32_t cycles) {
+  HWY_INLINE explicit Lanes(std::uint32_t cycles) {
     for (Vector& vector : v_) {
       vector = hn::Set(Tag(), cycles);
     }
   }
-  explicit Lanes(const std::uint32_t* cycles) {
+  /// kLanes numbers, aligned to their own size.
+  HWY_INLINE explicit Lanes(const std::uint32_t* cycles) {
     for (std::size_t i = 0; i < kVectors; ++i) {
-      v_[i] = hn::LoadU(Tag(), cycles + i * hn::Lanes(Tag()));
+      v_[i] = hn::Load(Tag(), cycles + i * hn::Lanes(Tag()));
     }
   }
-  void store(std::uint32_t* cycles) const {
+  HWY_INLINE void store(std::uint32_t* cycles) const {
     for (std::size_t i = 0; i < kVectors; ++i) {
-      hn::StoreU(v_[i], Tag(), cycles + i * hn::Lanes(Tag()));
+      hn::Store(v_[i], Tag(), cycles + i * hn::Lanes(Tag()));
     }
   }
 
-  friend Lanes operator+(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](Vector x, Vector y) { return hn::Add(x, y); });
-  }
-  friend Lanes operator+(const Lanes& a, std::uint32_t cycles) { return a + Lanes(cycles); }
-  friend Lanes operator*(const Lanes& a, std::uint32_t times) {
-    return each(a, Lanes(times), [](Vector x, Vector y) { return hn::Mul(x, y); });
-  }
-  friend Lanes operator&(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](Vector x, Vector y) { return hn::And(x, y); });
-  }
-  friend Lanes operator|(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](Vector x, Vector y) { return hn::Or(x, y); });
-  }
-  friend Lanes later(const Lanes& a, const Lanes& b) {
-    return each(a, b, [](Vector x, Vector y) { return hn::Max(x, y); });
-  }
-
- private:
-  template <class Operation>
-  static Lanes each(const Lanes& a, const Lanes& b, const Operation& operation) {
-    Lanes result(a);
+  friend HWY_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
+    Lanes result = a;
     for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = operation(a.v_[i], b.v_[i]);
+      result.v_[i] = hn::Add(a.v_[i], b.v_[i]);
+    }
+    return result;
+  }
+  friend HWY_INLINE Lanes operator&(const Lanes& a, const Lanes& b) {
+    Lanes result = a;
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      result.v_[i] = hn::And(a.v_[i], b.v_[i]);
+    }
+    return result;
+  }
+  friend HWY_INLINE Lanes operator|(const Lanes& a, const Lanes& b) {
+    Lanes result = a;
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      result.v_[i] = hn::Or(a.v_[i], b.v_[i]);
+    }
+    return result;
+  }
+  friend HWY_INLINE Lanes later(const Lanes& a, const Lanes& b) {
+    Lanes result = a;
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      result.v_[i] = hn::Max(a.v_[i], b.v_[i]);
+    }
+    return result;
+  }
+  friend HWY_INLINE Lanes operator+(const Lanes& a, std::uint32_t cycles) { return a + Lanes(cycles); }
+  friend HWY_INLINE Lanes operator*(const Lanes& a, std::uint32_t times) {
+    Lanes result = a;
+    for (std::size_t i = 0; i < kVectors; ++i) {
+      result.v_[i] = hn::Mul(a.v_[i], hn::Set(Tag(), times));
     }
     return result;
   }
 
+ private:
   Vector v_[kVectors];
 };
 
@@ -97,8 +109,12 @@ class LaneTable {
     }
     std::fill_n(cycles_.get(), rows * detail::kLanes, 0);
   }
-  [[nodiscard]] Lanes get(std::size_t row) const { return Lanes(cycles_.get() + row * detail::kLanes); }
-  void set(std::size_t row, const Lanes& cycles) { cycles.store(cycles_.get() + row * detail::kLanes); }
+  [[nodiscard]] HWY_INLINE Lanes get(std::size_t row) const {
+    return Lanes(cycles_.get() + row * detail::kLanes);
+  }
+  HWY_INLINE void set(std::size_t row, const Lanes& cycles) {
+    cycles.store(cycles_.get() + row * detail::kLanes);
+  }
 
  private:
   hwy::AlignedFreeUniquePtr<std::uint32_t[]> cycles_;
@@ -129,7 +145,7 @@ class LaneCredits {
     wrap_ = std::bit_ceil(most) - 1;
   }
 
-  [[nodiscard]] Lanes usable(std::size_t ahead = 0) const {
+  [[nodiscard]] HWY_INLINE Lanes usable(std::size_t ahead = 0) const {
     const std::size_t at = given_ + ahead;
     Lanes result = usable_.get((at - capacities_[0]) & wrap_);
     if (capacities_.size() > 1) {
@@ -141,7 +157,7 @@ class LaneCredits {
     return result;
   }
 
-  void give(const Lanes& cycle) { usable_.set(given_++ & wrap_, cycle); }
+  HWY_INLINE void give(const Lanes& cycle) { usable_.set(given_++ & wrap_, cycle); }
 
  private:
   std::vector<std::size_t> capacities_;  ///< without repetition

@@ -77,4 +77,42 @@ ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
   return trace;
 }
 
+FrameWork record_work(const FrameRecord& record, const ZTrace& trace) {
+  FrameWork work;
+  const RecordedTriangle* triangle = record.triangles.data();
+  const RecordedJob* job = record.jobs.data();
+  std::uint32_t access = 0;
+  std::size_t miss = 0;
+  for (const RecordedSegment& segment : record.segments) {
+    if (segment.kind == RecordedSegment::Kind::kFastClear) {
+      work.fast_clears.push_back(record.surfaces[segment.surface].tiles);
+      continue;
+    }
+    DrawWork draw;
+    draw.triangles = segment.dropped_after;
+    draw.drawn = segment.triangles;
+    for (std::uint32_t i = 0; i < segment.triangles; ++i, ++triangle) {
+      draw.triangles += triangle->dropped_before + 1;
+      draw.steps += triangle->steps_after;
+      for (const RecordedJob* const end = job + triangle->jobs; job != end; ++job) {
+        draw.steps += job->steps();
+        ++draw.tiles[static_cast<std::size_t>(job->quads())];
+        access += segment.touches_depth != 0 && job->quads() != 0 ? 1 : 0;
+      }
+    }
+    const std::size_t first = miss;
+    while (trace.burst[miss] < access) {
+      ++miss;
+    }
+    draw.count(std::span(trace.misses).subspan(first, miss - first));
+    if (segment.kind == RecordedSegment::Kind::kDraw) {
+      work.draws.push_back(draw);
+    } else {
+      work.drawn_clears += draw;
+    }
+  }
+  work.flush = trace.flush;
+  return work;
+}
+
 }  // namespace halfspace

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/timing/analytic/draw_work.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
 
 namespace halfspace {
@@ -19,5 +19,8 @@ struct ZTrace {
 };
 
 ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape);
+
+/// The sums of a record on machines with the z cache of `trace`.
+FrameWork record_work(const FrameRecord& record, const ZTrace& trace);
 
 }  // namespace halfspace

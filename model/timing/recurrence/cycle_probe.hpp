@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/pipeline.hpp"
+#include "halfspace/timing/recurrence/cycle_observer.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 
 namespace halfspace {
@@ -54,13 +56,17 @@ class LinkMeter {
 };
 
 /// What RecurrenceCore tells. Every stage's cycles are split at the terms that held its packet back, in the
-/// order of the stall reasons.
+/// order of the stall reasons. With kObserved there is somebody who wants them one by one: a type of its own,
+/// because even to ask for a pointer at every packet costs time.
+template <bool kObserved>
 class CycleProbe {
  public:
   static constexpr bool kLooks = true;
   using Cycle = std::uint64_t;
 
-  CycleProbe(const std::array<int, kFifos>& capacity, PacketTimes* times) : times_(times) {
+  /// `times` may be null, and without kObserved `observer` too.
+  CycleProbe(const std::array<int, kFifos>& capacity, PacketTimes* times, CycleObserver* observer)
+      : times_(times), observer_(observer) {
     for (std::size_t i = 0; i < kLinks; ++i) {
       meter_[i] = LinkMeter(capacity[i]);
     }
@@ -71,6 +77,9 @@ class CycleProbe {
     in_draw_ = index != kNoDraw;
     if (in_draw_) {
       draws_.push_back({.end = end_, .stats = {}});
+    }
+    if constexpr (kObserved) {
+      observer_->draw(index);
     }
   }
 
@@ -90,13 +99,12 @@ class CycleProbe {
 
   void emit(Cycle free, Cycle stepped, Cycle emitted, Cycle back) {
     link(Link::kTileWalker, emitted - 1, back);
-    StageCycles& walker = stage(Stage::kTileWalker);
-    walker.busy += stepped - free;
-    walker.stall[stall::kWalkerNoCredit] += emitted - stepped;
+    busy(Stage::kTileWalker, free, stepped);
+    wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emitted);
     note(&PacketTimes::emit, emitted - 1);
   }
 
-  void walked(Cycle free, Cycle done) { stage(Stage::kTileWalker).busy += done - free; }
+  void walked(Cycle free, Cycle done) { busy(Stage::kTileWalker, free, done); }
 
   void edge(Cycle free, Cycle visible, Cycle e, Cycle back) {
     link(Link::kEdgeEvaluator, e, back);
@@ -118,11 +126,10 @@ class CycleProbe {
   /// A request that could be sent from `ready` on found a fill buffer in `buffer` and was sent in `r`; of
   /// these cycles those count in which no beat moves any more, from `moved` on.
   void request(Cycle moved, Cycle ready, Cycle buffer, Cycle r) {
-    StageCycles& lookup = stage(Stage::kZLookup);
     const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };
-    lookup.stall[stall::kLookupFillBuffers] += after(buffer) - after(ready);
-    lookup.stall[stall::kLookupWriteBack] += after(r) - after(buffer);
-    lookup.stall[stall::kLookupRequest] += after(r + 1) - after(r);
+    wait(Stage::kZLookup, stall::kLookupFillBuffers, after(ready), after(buffer));
+    wait(Stage::kZLookup, stall::kLookupWriteBack, after(buffer), after(r));
+    wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(r + 1));
   }
 
   void test(Cycle f, Cycle free, Cycle filled, Cycle slots, Cycle b, Cycle beats) {
@@ -140,11 +147,23 @@ class CycleProbe {
     note(&PacketTimes::y, y);
   }
 
-  void read(Cycle cycles) { here().read_busy += cycles; }
-  void write(Cycle cycles) { here().write_busy += cycles; }
+  /// A line has come from memory, or gone there, in so many cycles before `end`.
+  void read(Cycle cycles, Cycle end) {
+    here().read_busy += cycles;
+    transfer(CycleObserver::Channel::kRead, cycles, end);
+  }
+  void write(Cycle cycles, Cycle end) {
+    here().write_busy += cycles;
+    transfer(CycleObserver::Channel::kWrite, cycles, end);
+  }
 
   /// What follows, the flush, belongs to no draw.
-  void drained() { in_draw_ = false; }
+  void drained() {
+    in_draw_ = false;
+    if constexpr (kObserved) {
+      observer_->drained();
+    }
+  }
 
   FrameCycles finish(Cycle cycles) {
     FrameCycles frame{.cycles = cycles, .stats = std::move(outside_), .draws = std::move(draws_)};
@@ -160,8 +179,10 @@ class CycleProbe {
       sum.read_busy += draw.stats.read_busy;
       sum.write_busy += draw.stats.write_busy;
     }
-    for (StageCycles& stage : sum.stage) {
-      stage.stall[stall::kNoInput] += cycles - stage.total();
+    for (std::size_t i = 0; i < kStages; ++i) {
+      const Cycle last = sum.stage[i].total();
+      sum.stage[i].stall[stall::kNoInput] += cycles - last;
+      tell(static_cast<Stage>(i), stall::kNoInput, last, cycles);
     }
     for (std::size_t i = 0; i < kLinks; ++i) {
       sum.occupancy[i] = meter_[i].finish(cycles);
@@ -182,9 +203,35 @@ class CycleProbe {
     for (std::size_t i = 0; i < N; ++i) {
       const Cycle to = std::max(at, until[i]);
       cycles.stall[i] += to - at;
+      tell(which, i, at, to);
       at = to;
     }
     cycles.busy += busy;
+    tell(which, std::nullopt, at, at + busy);
+  }
+
+  void busy(Stage which, Cycle from, Cycle to) {
+    stage(which).busy += to - from;
+    tell(which, std::nullopt, from, to);
+  }
+
+  void wait(Stage which, std::size_t reason, Cycle from, Cycle to) {
+    stage(which).stall[reason] += to - from;
+    tell(which, reason, from, to);
+  }
+
+  void tell(Stage which, std::optional<std::size_t> reason, Cycle from, Cycle to) {
+    if constexpr (kObserved) {
+      if (from != to) {
+        observer_->slice(which, reason, from, to);
+      }
+    }
+  }
+
+  void transfer(CycleObserver::Channel channel, Cycle cycles, Cycle end) {
+    if constexpr (kObserved) {
+      observer_->transfer(channel, end - cycles, end);
+    }
   }
 
   void link(Link which, Cycle take, Cycle back) {
@@ -192,6 +239,9 @@ class CycleProbe {
     meter_[i].add(take, back);
     here().held[i] += back - take;
     ++here().packets[i];
+    if constexpr (kObserved) {
+      observer_->link(which, take, back);
+    }
   }
 
   void note(std::vector<Cycle> PacketTimes::*stream, Cycle cycle) {
@@ -201,6 +251,7 @@ class CycleProbe {
   }
 
   PacketTimes* times_;
+  CycleObserver* observer_;
   std::array<LinkMeter, kLinks> meter_;
   std::vector<DrawCycles> draws_;
   CycleStats outside_;

@@ -9,12 +9,12 @@ namespace {
 
 
 /// The clock of a traversal.
-template <class Stalls>
+template <class Stalls, bool kObserved>
 class RecurrenceClock {
  public:
-  RecurrenceClock(const Config& config, const Stalls& stalls, PacketTimes* times)
+  RecurrenceClock(const Config& config, const Stalls& stalls, const TimedRun& run)
       : config_(config),
-        probe_(capacities(config), times),
+        probe_(capacities(config), run.times, run.observer),
         core_(machine(config), make_credits(config), stalls, probe_) {}
   RecurrenceClock(const RecurrenceClock&) = delete;  // the core holds a reference to the probe
   RecurrenceClock& operator=(const RecurrenceClock&) = delete;
@@ -59,8 +59,11 @@ FrameResult run_with(const Frame& frame, const Config& config, bool keep_visible
 
 FrameResult run_recurrence(const Frame& frame, const Config& config, bool keep_visible,
                            PacketObserver* observer, TimedRun& run) {
-  return run.stalls.any() ? run_with(frame, config, keep_visible, observer, run.stalls, run)
-                          : run_with(frame, config, keep_visible, observer, NoStalls{}, run);
+  if (run.observer != nullptr) {
+    return run_with<true>(frame, config, keep_visible, observer, run.stalls, run);
+  }
+  return run.stalls.any() ? run_with<false>(frame, config, keep_visible, observer, run.stalls, run)
+                          : run_with<false>(frame, config, keep_visible, observer, NoStalls{}, run);
 }
 
 }  // namespace halfspace

@@ -1,0 +1,33 @@
+/// What the benches of the command line share.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace halfspace {
+
+/// Milliseconds that action() takes.
+template <class Action>
+double milliseconds(const Action& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+  return time.count();
+}
+
+/// The middle one of some times.
+inline double median(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+void add_bench_speed(CLI::App& bench);
+void add_bench_time(CLI::App& bench);
+void add_bench_analytic(CLI::App& bench);
+
+}  // namespace halfspace

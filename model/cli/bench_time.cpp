@@ -1,0 +1,118 @@
+/// halfspace bench time: what it costs to know the time, fidelity by fidelity, in turns on the same machine.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/options.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/load.hpp"
+#include "halfspace/timing/analytic/analytic.hpp"
+#include "halfspace/timing/functional.hpp"
+#include "halfspace/timing/record/retime.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/timing/systemc/run_systemc.hpp"
+
+namespace halfspace {
+namespace {
+
+struct TimeOptions {
+  std::vector<std::string> inputs;
+  MachineOptions machine;
+  int repeat = 9;
+};
+
+/// 64 machines around `config`, with its z cache.
+std::vector<Config> neighbours(const Config& config) {
+  std::vector<Config> machines;
+  for (const int latency : {25, 50, 100, 200}) {
+    for (const int jobs : {4, 8, 16, 32}) {
+      for (const int pending : {8, 16, 32, 64}) {
+        Config machine = config;
+        machine.memory_latency = latency;
+        machine.walker_fifo = jobs;
+        machine.early_z_pending = pending;
+        machines.push_back(machine);
+      }
+    }
+  }
+  return machines;
+}
+
+void print_times(const Frame& frame, const Config& config, int repeat) {
+  std::vector<double> functional;
+  std::vector<double> analytic;
+  std::vector<double> recurrence;
+  std::vector<double> systemc;
+  std::vector<double> one;
+  std::vector<double> batch;
+  std::vector<double> singly;
+  TimedRun run;
+  TimedRun events;
+  Retimer retimer(record_frame(frame, config, nullptr));
+  const std::vector<Config> machines = neighbours(config);
+  for (int i = 0; i <= repeat; ++i) {
+    AnalyticFrame estimate;
+    RetimedFrame retimed;
+    std::vector<RetimedFrame> all;
+    std::vector<RetimedFrame> each;
+    const double times[] = {
+        milliseconds([&] { run_functional(frame, config, false, nullptr); }),
+        milliseconds([&] { run_analytic(frame, config, false, nullptr, estimate); }),
+        milliseconds([&] { run_recurrence(frame, config, false, nullptr, run); }),
+        milliseconds([&] { run_systemc(frame, config, false, nullptr, events, {}); }),
+        milliseconds([&] { retimed = retimer.retime(config); }),
+        milliseconds([&] { all = retimer.retime(machines); }),
+        milliseconds([&] {
+          for (const Config& machine : machines) {
+            each.push_back(retimer.retime(machine));
+          }
+        }),
+    };
+    if (retimed.cycles != run.cycles.cycles || events.cycles.cycles != run.cycles.cycles || all != each) {
+      throw InputError(fmt::format("{}: engines disagree: recurrence {}, systemc {}, retime {} cycles",
+                                   frame.name, run.cycles.cycles, events.cycles.cycles, retimed.cycles));
+    }
+    if (i == 0) {  // warms caches and page tables
+      continue;
+    }
+    std::size_t k = 0;
+    for (std::vector<double>* list : {&functional, &analytic, &recurrence, &systemc, &one, &batch, &singly}) {
+      list->push_back(times[k++]);
+    }
+  }
+  const double f = median(functional);
+  const double r = median(recurrence);
+  fmt::print(
+      "| {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} "
+      "|\n",
+      frame.name, run.cycles.cycles, f, median(analytic), r, median(systemc), median(one), median(batch),
+      r / f, median(systemc) / r, r / median(one), median(singly) / median(batch));
+}
+
+void bench_time(const TimeOptions& options) {
+  const Config config = options.machine.config();
+  fmt::print("one thread, medians of {} runs in turns, ms\n\n", options.repeat);
+  fmt::print(
+      "| frame | cycles | functional | analytic | recurrence | systemc | retime | retime 64 | recurrence / "
+      "functional | systemc / recurrence | recurrence / retime | 64 x retime / retime 64 |\n");
+  fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+  for (const std::string& input : options.inputs) {
+    print_times(load(input), config, options.repeat);
+  }
+}
+
+}  // namespace
+
+void add_bench_time(CLI::App& bench) {
+  auto options = std::make_shared<TimeOptions>();
+  CLI::App* command = bench.add_subcommand("time", "run time of every fidelity and of re-timing");
+  command->add_option("INPUT", options->inputs, "frames or meshes")->required();
+  options->machine.add_to(*command);
+  command->add_option("--repeat", options->repeat, "timed runs")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->callback([options] { bench_time(*options); });
+}
+
+}  // namespace halfspace

@@ -1,0 +1,241 @@
+#include "halfspace/timing/record/frame_record_file.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/byte_source.hpp"
+#include "halfspace/scene/compression.hpp"
+
+namespace halfspace {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x43525348;  // "HSRC"
+constexpr std::uint32_t kVersion = 1;
+
+// Members of a list in the file, one word each.
+constexpr auto kSurfaceWords =
+    std::to_array({&RecordedSurface::tiles_x, &RecordedSurface::tiles, &RecordedSurface::sample_bytes});
+constexpr auto kSegmentWords = std::to_array({&RecordedSegment::surface, &RecordedSegment::touches_depth,
+                                              &RecordedSegment::triangles, &RecordedSegment::dropped_after});
+constexpr auto kTriangleWords = std::to_array(
+    {&RecordedTriangle::dropped_before, &RecordedTriangle::jobs, &RecordedTriangle::steps_after});
+
+class Writer {
+ public:
+  void word(std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes_.push_back(static_cast<std::byte>(value >> shift));
+    }
+  }
+  void text(std::string_view text) {
+    word(static_cast<std::uint32_t>(text.size()));
+    for (const char c : text) {
+      bytes_.push_back(static_cast<std::byte>(c));
+    }
+  }
+  template <class List, class Put>
+  void list(const List& list, const Put& put) {
+    word(static_cast<std::uint32_t>(list.size()));
+    for (const auto& item : list) {
+      put(item);
+    }
+  }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, std::span<const std::byte> bytes)
+      : name_(display_name(path)), bytes_(bytes) {}
+
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
+
+  std::uint32_t word() {
+    need(4);
+    std::uint32_t value = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+      value |= std::to_integer<std::uint32_t>(bytes_[at_++]) << shift;
+    }
+    return value;
+  }
+  std::string text() {
+    const std::uint32_t size = word();
+    need(size);
+    std::string text(size, '\0');
+    std::memcpy(text.data(), bytes_.data() + at_, size);
+    at_ += size;
+    return text;
+  }
+  /// A list of items of `words` words, each made by get().
+  template <class Item, class Get>
+  std::vector<Item> list(std::size_t words, const Get& get) {
+    const std::uint32_t size = word();
+    need(std::size_t{size} * words * 4);  // before anything is allocated
+    std::vector<Item> items;
+    items.reserve(size);
+    for (std::uint32_t i = 0; i < size; ++i) {
+      items.push_back(get());
+    }
+    return items;
+  }
+  void end() const {
+    if (at_ != bytes_.size()) {
+      fail(fmt::format("{} bytes after the end of the record", bytes_.size() - at_));
+    }
+  }
+
+ private:
+  void need(std::size_t size) const {
+    if (bytes_.size() - at_ < size) {
+      fail(fmt::format("cut short: {} bytes are missing", size - (bytes_.size() - at_)));
+    }
+  }
+
+  std::string name_;
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+void check_surfaces(const Reader& reader, const FrameRecord& record) {
+  std::uint64_t tiles = 0;
+  for (const RecordedSurface& surface : record.surfaces) {
+    tiles += surface.tiles;
+    if (surface.tiles != 0 && (surface.tiles_x == 0 || surface.tiles % surface.tiles_x != 0 ||
+                               surface.tiles_x > 4096 || surface.tiles / surface.tiles_x > 4096)) {
+      reader.fail(fmt::format("a surface of {} tiles, {} in a row; legal: whole rows, at most 4096 x 4096",
+                              surface.tiles, surface.tiles_x));
+    }
+    if (surface.sample_bytes != 2 && surface.sample_bytes != 4) {
+      reader.fail(fmt::format("samples of {} bytes; legal: 2, 4", surface.sample_bytes));
+    }
+  }
+  if (tiles > kMostRecordedTiles) {
+    reader.fail(fmt::format("{} tiles in all surfaces; legal: at most {}", tiles, kMostRecordedTiles));
+  }
+}
+
+void check_access(const Reader& reader, const FrameRecord& record, const RecordedSurface& surface,
+                  const RecordedAccess& access) {
+  const unsigned bands = (1u << recorded_bands(record.config.tile_size)) - 1;
+  if (access.tile_x() >= surface.tiles_x || access.tile_y() >= surface.tiles / surface.tiles_x) {
+    reader.fail(fmt::format("a burst in tile ({}, {}) of a surface of {} x {} tiles", access.tile_x(),
+                            access.tile_y(), surface.tiles_x, surface.tiles / surface.tiles_x));
+  }
+  if (access.touched() == 0 || (access.touched() & ~bands) != 0 ||
+      (access.written() & ~access.touched()) != 0) {
+    reader.fail(fmt::format("a burst that touches bands {:04b} and writes {:04b}", access.touched(),
+                            access.written()));
+  }
+}
+
+/// Everything the replay relies on: that lists are as long as others say, and numbers in range.
+void check(const Reader& reader, const FrameRecord& record) {
+  check_surfaces(reader, record);
+  const int most_quads = record.config.tile_size * record.config.tile_size / 4;
+  std::size_t triangle = 0;
+  std::size_t job = 0;
+  std::size_t access = 0;
+  for (const RecordedSegment& segment : record.segments) {
+    const bool clear = segment.kind == RecordedSegment::Kind::kFastClear;
+    const bool has_surface = segment.surface < record.surfaces.size();
+    if (segment.touches_depth > 1 || ((clear || segment.touches_depth == 1) &&
+                                      (!has_surface || record.surfaces[segment.surface].tiles == 0))) {
+      reader.fail(fmt::format("a draw or clear of depth surface {}, which is not there", segment.surface));
+    }
+    if ((clear && segment.triangles != 0) || segment.triangles > record.triangles.size() - triangle) {
+      reader.fail("more triangles in draws than in the list");
+    }
+    for (std::uint32_t i = 0; i < segment.triangles; ++i, ++triangle) {
+      if (record.triangles[triangle].jobs > record.jobs.size() - job) {
+        reader.fail("more tile jobs in triangles than in the list");
+      }
+      for (std::uint32_t k = 0; k < record.triangles[triangle].jobs; ++k, ++job) {
+        if (record.jobs[job].quads() > most_quads) {
+          reader.fail(
+              fmt::format("{} quads in a tile; legal: at most {}", record.jobs[job].quads(), most_quads));
+        }
+        if (segment.touches_depth == 1 && record.jobs[job].quads() != 0) {
+          if (access == record.accesses.size()) {
+            reader.fail("more bursts with depth than in the list");
+          }
+          check_access(reader, record, record.surfaces[segment.surface], record.accesses[access++]);
+        }
+      }
+    }
+  }
+  if (triangle != record.triangles.size() || job != record.jobs.size() || access != record.accesses.size()) {
+    reader.fail("lists are longer than draws and triangles say");
+  }
+}
+
+}  // namespace
+
+void write_record(const std::filesystem::path& path, const FrameRecord& record) {
+  Writer writer;
+  writer.word(kMagic);
+  writer.word(kVersion);
+  writer.text(record.name);
+  writer.text(to_toml(record.config));
+  const auto put_members = [&](const auto& item, const auto& members) {
+    for (const auto member : members) {
+      writer.word(item.*member);
+    }
+  };
+  writer.list(record.surfaces, [&](const RecordedSurface& s) { put_members(s, kSurfaceWords); });
+  writer.list(record.segments, [&](const RecordedSegment& s) {
+    writer.word(static_cast<std::uint32_t>(s.kind));
+    put_members(s, kSegmentWords);
+  });
+  writer.list(record.triangles, [&](const RecordedTriangle& t) { put_members(t, kTriangleWords); });
+  writer.list(record.jobs, [&](const RecordedJob& j) { writer.word(j.word()); });
+  writer.list(record.accesses, [&](const RecordedAccess& a) { writer.word(a.word()); });
+  write_bytes(path, compress_gzip(writer.bytes()));
+}
+
+FrameRecord read_record(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  Reader reader(path, bytes);
+  if (bytes.size() < 8 || reader.word() != kMagic) {
+    reader.fail("not a record of a frame: it does not start with HSRC");
+  }
+  if (const std::uint32_t version = reader.word(); version != kVersion) {
+    reader.fail(fmt::format("version {}; legal: {}", version, kVersion));
+  }
+  FrameRecord record;
+  record.name = reader.text();
+  record.config = parse_config(reader.text(), display_name(path));
+  validate(record.config);
+  const auto get_members = [&](auto item, const auto& members) {
+    for (const auto member : members) {
+      item.*member = reader.word();
+    }
+    return item;
+  };
+  record.surfaces = reader.list<RecordedSurface>(
+      kSurfaceWords.size(), [&] { return get_members(RecordedSurface{}, kSurfaceWords); });
+  record.segments = reader.list<RecordedSegment>(kSegmentWords.size() + 1, [&] {
+    const std::uint32_t kind = reader.word();
+    if (kind > static_cast<std::uint32_t>(RecordedSegment::Kind::kFastClear)) {
+      reader.fail(fmt::format("a segment of kind {}; legal: 0 to 2", kind));
+    }
+    RecordedSegment segment = get_members(RecordedSegment{}, kSegmentWords);
+    segment.kind = static_cast<RecordedSegment::Kind>(kind);
+    return segment;
+  });
+  record.triangles = reader.list<RecordedTriangle>(
+      kTriangleWords.size(), [&] { return get_members(RecordedTriangle{}, kTriangleWords); });
+  record.jobs = reader.list<RecordedJob>(1, [&] { return RecordedJob(reader.word()); });
+  record.accesses = reader.list<RecordedAccess>(1, [&] { return RecordedAccess(reader.word()); });
+  reader.end();
+  check(reader, record);
+  return record;
+}
+
+}  // namespace halfspace

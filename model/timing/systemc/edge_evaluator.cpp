@@ -1,0 +1,43 @@
+#include "halfspace/timing/systemc/edge_evaluator.hpp"
+
+#include <algorithm>
+
+#include "halfspace/timing/tally.hpp"
+#include "halfspace/units/edge_evaluator.hpp"
+
+namespace halfspace::systemc {
+
+EdgeEvaluator::EdgeEvaluator(const sc_core::sc_module_name& name, RunState& run)
+    : sc_module(name), in("in"), out("out"), run_(run), meter_(Stage::kEdgeEvaluator, run) {
+  SC_THREAD(evaluate);
+}
+
+void EdgeEvaluator::begin_frame() { next_ = 0; }
+
+void EdgeEvaluator::evaluate() {
+  run_.guard([&] {
+    for (;;) {
+      meter_.waits_for(stall::kNoInput);
+      const Cycle visible = in->visible();
+      meter_.work_on(in->front().work);
+      meter_.stalled(stall::kNoInput, visible);
+      meter_.waits_for(stall::kEdgeNoCredit);
+      const Cycle at = std::max({visible, next_, out->credit()});
+      meter_.stalled(stall::kEdgeNoCredit, at);
+      run_.clock.wait_until(at);
+
+      JobToken token = in->take(at);
+      run_.record(&PacketTimes::e, at);
+      meter_.busy(at + 1);
+      next_ = at + 1;
+      const Coverage coverage = with_tile_size(run_.config.tile_size, [&](auto size) {
+        return halfspace::edge_evaluator<size()>(token.job, run_.config.sub_pixel_bits);
+      });
+      tally(token.work->counters, token.job, token.tile_work, any(coverage.mask));
+      out->use_credit();
+      out->put({.work = token.work, .triangle = std::move(token.triangle), .coverage = coverage}, at);
+    }
+  });
+}
+
+}  // namespace halfspace::systemc

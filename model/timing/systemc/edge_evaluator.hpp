@@ -1,0 +1,31 @@
+/// edge_evaluator as a module.
+#pragma once
+
+#include <systemc>
+
+#include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/stage_meter.hpp"
+#include "halfspace/timing/systemc/tokens.hpp"
+
+namespace halfspace::systemc {
+
+class EdgeEvaluator : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(EdgeEvaluator);
+  EdgeEvaluator(const sc_core::sc_module_name& name, RunState& run);
+
+  sc_core::sc_port<CreditIn<JobToken>> in;
+  sc_core::sc_port<CreditOut<CoverageToken>> out;
+
+  void begin_frame();
+  [[nodiscard]] StageMeter& meter() { return meter_; }
+
+ private:
+  void evaluate();
+
+  RunState& run_;
+  StageMeter meter_;
+  Cycle next_ = 0;  ///< first cycle in which the next job may be taken
+};
+
+}  // namespace halfspace::systemc

@@ -1,0 +1,54 @@
+#include "halfspace/timing/systemc/quad_generator.hpp"
+
+#include <algorithm>
+
+#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/tally.hpp"
+#include "halfspace/units/quad_generator.hpp"
+
+namespace halfspace::systemc {
+
+QuadGenerator::QuadGenerator(const sc_core::sc_module_name& name, RunState& run)
+    : sc_module(name), in("in"), out("out"), run_(run), meter_(Stage::kQuadGenerator, run) {
+  SC_THREAD(generate);
+}
+
+void QuadGenerator::begin_frame() { next_ = 0; }
+
+void QuadGenerator::generate() {
+  run_.guard([&] {
+    for (;;) {
+      meter_.waits_for(stall::kNoInput);
+      const Cycle visible = in->visible();
+      meter_.work_on(in->front().work);
+      meter_.stalled(stall::kNoInput, visible);
+      meter_.waits_for(stall::kQuadNoCredit);
+      const Cycle at = std::max({visible, next_, out->credit()});
+      meter_.stalled(stall::kQuadNoCredit, at);
+      run_.clock.wait_until(at);
+
+      CoverageToken token = in->take(at);
+      run_.record(&PacketTimes::g, at);
+      if (!any(token.coverage.mask)) {
+        meter_.busy(at + 1);
+        next_ = at + 1;
+        run_.in_pipe.remove();
+        continue;
+      }
+      BurstToken burst{.work = token.work, .triangle = std::move(token.triangle), .burst = {}, .quads = 0};
+      with_tile_size(run_.config.tile_size, [&](auto size) {
+        burst.burst = halfspace::quad_generator<size()>(token.coverage);
+        burst.quads = popcount(burst.burst.quads);
+        tally<size()>(token.work->counters.quad_generator, burst.burst,
+                      static_cast<std::uint64_t>(burst.quads),
+                      static_cast<std::uint64_t>(popcount(token.coverage.mask)));
+      });
+      next_ = at + static_cast<Cycle>(beats(burst.quads, run_.config.quad_width));
+      meter_.busy(next_);
+      out->use_credit();
+      out->put(std::move(burst), at);
+    }
+  });
+}
+
+}  // namespace halfspace::systemc

@@ -1,0 +1,31 @@
+/// quad_generator as a module.
+#pragma once
+
+#include <systemc>
+
+#include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/stage_meter.hpp"
+#include "halfspace/timing/systemc/tokens.hpp"
+
+namespace halfspace::systemc {
+
+class QuadGenerator : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(QuadGenerator);
+  QuadGenerator(const sc_core::sc_module_name& name, RunState& run);
+
+  sc_core::sc_port<CreditIn<CoverageToken>> in;
+  sc_core::sc_port<CreditOut<BurstToken>> out;
+
+  void begin_frame();
+  [[nodiscard]] StageMeter& meter() { return meter_; }
+
+ private:
+  void generate();
+
+  RunState& run_;
+  StageMeter meter_;
+  Cycle next_ = 0;  ///< first cycle in which the next coverage may be taken
+};
+
+}  // namespace halfspace::systemc

@@ -1,0 +1,275 @@
+#include "halfspace/timing/systemc/raster_pipeline.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "halfspace/timing/contract.hpp"
+
+namespace halfspace::systemc {
+
+std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
+  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_size, false);
+  return DepthLayout(surfaces, place_surfaces(surfaces, config), config.z_parts, 0).end();
+}
+
+RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base)
+    : sc_module(name),
+      commands("commands"),
+      memory("memory"),
+      run_(config),
+      setup_link_("setup_link", run_,
+                  {.capacity = config.setup_fifo,
+                   .latency = kSetupDivideLatency,
+                   .statistics = Link::kSetup,
+                   .stalls = StallPoint::kSetup}),
+      walker_link_("tile_walker_link", run_,
+                   {.capacity = config.walker_fifo,
+                    .latency = kWalkerLatency,
+                    .statistics = Link::kTileWalker,
+                    .stalls = StallPoint::kTileWalker}),
+      edge_link_("edge_evaluator_link", run_,
+                 {.capacity = config.edge_fifo,
+                  .latency = edge_latency(config),
+                  .statistics = Link::kEdgeEvaluator,
+                  .stalls = StallPoint::kEdgeEvaluator}),
+      quad_link_("quad_generator_link", run_,
+                 {.capacity = config.quad_fifo,
+                  .latency = kQuadLatency,
+                  .statistics = Link::kQuadGenerator,
+                  .stalls = StallPoint::kQuadGenerator}),
+      early_z_link_("early_z_link", run_,
+                    {.capacity = config.early_z_fifo,
+                     .latency = kTestLatency,
+                     .statistics = Link::kEarlyZ,
+                     .stalls = StallPoint::kSink}),
+      source_("source", run_, *this),
+      setup_("setup", run_),
+      walker_("tile_walker", run_),
+      edge_evaluator_("edge_evaluator", run_),
+      quad_generator_("quad_generator", run_),
+      early_z_("early_z", run_, base),
+      sink_("sink", run_),
+      meters_{&setup_.meter(),          &walker_.meter(),         &edge_evaluator_.meter(),
+              &quad_generator_.meter(), &early_z_.lookup_meter(), &early_z_.test_meter()},
+      links_{&setup_.queue(), &setup_link_,        &walker_link_, &edge_link_,
+             &quad_link_,     &early_z_.pending(), &early_z_link_} {
+  commands.register_b_transport(this, &RasterPipeline::transport);
+  source_.out(setup_);
+  source_.depth(early_z_);
+  setup_.out(setup_link_);
+  walker_.in(setup_link_);
+  walker_.out(walker_link_);
+  edge_evaluator_.in(walker_link_);
+  edge_evaluator_.out(edge_link_);
+  quad_generator_.in(edge_link_);
+  quad_generator_.out(quad_link_);
+  early_z_.in(quad_link_);
+  early_z_.out(early_z_link_);
+  sink_.in(early_z_link_);
+  early_z_.memory.bind(memory);
+}
+
+void RasterPipeline::bind_frame(const Frame& frame, bool keep_visible, PacketObserver* observer,
+                                const StallPlan& stalls, PacketTimes* times) {
+  run_.frame = &frame;
+  run_.stalls = stalls;
+  run_.observer = observer;
+  run_.times = times;
+  keep_visible_ = keep_visible;
+  bound_ = true;
+}
+
+void RasterPipeline::trace(sc_core::sc_trace_file* file) {
+  const auto add = [&](const std::string& name) {
+    signals_.push_back(std::make_unique<TimedSignal>(sc_core::sc_gen_unique_name("traced"), run_.clock));
+    sc_core::sc_trace(file, signals_.back()->value(), name);
+    return signals_.back().get();
+  };
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    links_[i]->trace(add("links." + std::string(kLinkName[i])));
+  }
+  early_z_.fill_buffers().trace(add("links.fill_buffers"));
+  early_z_.write_buffer().trace(add("links.write_buffer"));
+  for (StageMeter* const meter : meters_) {
+    meter->trace(add("stages." + meter->name()));
+  }
+}
+
+void RasterPipeline::begin_frame() {
+  run_.clock.restart();
+  run_.result = {};
+  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_size, keep_visible_);
+  run_.places = place_surfaces(run_.result.surfaces, run_.config);
+  run_.works.clear();
+  run_.cycles = {};
+  if (run_.times != nullptr) {
+    *run_.times = {};
+  }
+  for (CreditLinkBase* const link : links_) {
+    link->begin_frame();
+  }
+  early_z_.fill_buffers().begin_frame();
+  early_z_.write_buffer().begin_frame();
+  for (StageMeter* const meter : meters_) {
+    meter->begin_frame();
+  }
+  setup_.begin_frame();
+  walker_.begin_frame();
+  edge_evaluator_.begin_frame();
+  quad_generator_.begin_frame();
+  early_z_.begin_frame();
+  sink_.begin_frame();
+}
+
+Cycle RasterPipeline::idle_from() const {
+  Cycle from = sink_.next();
+  for (const StageMeter* const meter : meters_) {
+    from = std::max(from, meter->next());
+  }
+  return from;
+}
+
+void RasterPipeline::end_frame(Cycle cycles) {
+  run_.cycles.cycles = cycles;
+  for (CreditLinkBase* const link : links_) {
+    link->end_frame(cycles);
+  }
+  early_z_.fill_buffers().end_frame(cycles);
+  early_z_.write_buffer().end_frame(cycles);
+  for (StageMeter* const meter : meters_) {
+    meter->end_frame(cycles);
+  }
+  FrameResult& result = run_.result;
+  Cycle end = 0;
+  for (DrawWork& work : run_.works) {
+    if (work.is_clear()) {
+      result.drawn_clears += work.counters;
+      continue;
+    }
+    result.draws.push_back({.command = work.command, .surface = work.surface, .counters = work.counters});
+    result.counters += work.counters;
+    if (work.surface != kNoSurface) {
+      result.surfaces[work.surface].counters += work.counters;
+    }
+    end = work.has_burst ? work.cycles.end : end;
+    work.cycles.end = end;
+    run_.cycles.draws.push_back(std::move(work.cycles));
+  }
+  bound_ = false;
+}
+
+FrameResult RasterPipeline::take_result() {
+  for (std::size_t i = 0; i < run_.result.surfaces.size(); ++i) {
+    early_z_.read_surface(static_cast<std::uint32_t>(i), run_.result.surfaces[i].codes);
+  }
+  return std::move(run_.result);
+}
+
+FrameCycles RasterPipeline::take_cycles() { return std::move(run_.cycles); }
+
+void RasterPipeline::check() {
+  if (run_.error) {
+    std::rethrow_exception(run_.error);
+  }
+  if (!source_.idle()) {
+    throw DeadlockError("deadlock in cycle " + std::to_string(run_.clock.now()) + "\n" + describe());
+  }
+}
+
+std::string RasterPipeline::describe() {
+  std::string text = "stage source: " + source_.describe() + "\n";
+  for (const StageMeter* const meter : meters_) {
+    text += "stage " + meter->name() + ": " + meter->describe() + "\n";
+  }
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    text += "link " + std::string(kLinkName[i]) + ": " + links_[i]->describe() + "\n";
+  }
+  text += "fill buffers: " + early_z_.fill_buffers().describe() + "\n";
+  return text + "write buffer: " + early_z_.write_buffer().describe() + "\n";
+}
+
+// The command port.
+
+void RasterPipeline::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+  constexpr std::uint64_t kWord = 4;
+  const std::uint64_t address = payload.get_address();
+  if (address > registers::kCyclesHigh || address % kWord != 0) {
+    payload.set_response_status(tlm::TLM_ADDRESS_ERROR_RESPONSE);
+    return;
+  }
+  if (payload.get_data_length() != kWord || payload.get_streaming_width() < kWord) {
+    payload.set_response_status(tlm::TLM_BURST_ERROR_RESPONSE);
+    return;
+  }
+  if (payload.get_byte_enable_ptr() != nullptr) {
+    payload.set_response_status(tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE);
+    return;
+  }
+  if (delay != sc_core::SC_ZERO_TIME) {
+    wait(delay);
+    delay = sc_core::SC_ZERO_TIME;
+  }
+  std::array<std::uint8_t, kWord> bytes{};
+  std::uint32_t value = 0;
+  if (payload.is_write()) {
+    std::memcpy(bytes.data(), payload.get_data_ptr(), kWord);
+    for (std::size_t i = 0; i < kWord; ++i) {
+      value |= std::uint32_t{bytes[i]} << (8 * i);
+    }
+    payload.set_response_status(write_register(address, value));
+  } else if (payload.is_read()) {
+    payload.set_response_status(read_register(address, value));
+    for (std::size_t i = 0; i < kWord; ++i) {
+      bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
+    }
+    std::memcpy(payload.get_data_ptr(), bytes.data(), kWord);
+  } else {
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+  }
+}
+
+tlm::tlm_response_status RasterPipeline::write_register(std::uint64_t address, std::uint32_t value) {
+  if (address > registers::kWaitIdle) {
+    return tlm::TLM_COMMAND_ERROR_RESPONSE;
+  }
+  if (!bound_) {
+    return tlm::TLM_GENERIC_ERROR_RESPONSE;
+  }
+  const std::size_t count = run_.frame->commands.size();
+  if (address == registers::kSubmitCommand) {
+    if (value >= count) {
+      return tlm::TLM_GENERIC_ERROR_RESPONSE;
+    }
+    source_.submit(value);
+  } else if (address == registers::kSubmitFrame) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      source_.submit(i);
+    }
+  } else {
+    source_.submit_end();
+    source_.wait_until_idle();
+  }
+  return tlm::TLM_OK_RESPONSE;
+}
+
+tlm::tlm_response_status RasterPipeline::read_register(std::uint64_t address, std::uint32_t& value) const {
+  switch (address) {
+    case registers::kStatus:
+      value = (source_.idle() ? 0u : 1u) | (bound_ ? 2u : 0u);
+      return tlm::TLM_OK_RESPONSE;
+    case registers::kCommandsDone:
+      value = source_.commands_done();
+      return tlm::TLM_OK_RESPONSE;
+    case registers::kCyclesLow:
+      value = static_cast<std::uint32_t>(run_.cycles.cycles);
+      return tlm::TLM_OK_RESPONSE;
+    case registers::kCyclesHigh:
+      value = static_cast<std::uint32_t>(run_.cycles.cycles >> 32);
+      return tlm::TLM_OK_RESPONSE;
+    default:
+      return tlm::TLM_COMMAND_ERROR_RESPONSE;
+  }
+}
+
+}  // namespace halfspace::systemc

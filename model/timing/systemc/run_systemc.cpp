@@ -1,0 +1,90 @@
+#include "halfspace/timing/systemc/run_systemc.hpp"
+
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/timing/systemc/raster_pipeline.hpp"
+#include "halfspace/timing/systemc/simple_memory.hpp"
+#include "halfspace/timing/systemc/simulation_context.hpp"
+
+namespace halfspace {
+namespace {
+
+using namespace systemc;
+
+/// Submits the bound frame and waits for it.
+class Host : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Host);
+  explicit Host(const sc_core::sc_module_name& name) : sc_module(name), socket("socket") { SC_THREAD(run); }
+
+  tlm_utils::simple_initiator_socket<Host> socket;
+
+ private:
+  void run() {
+    write(registers::kSubmitFrame);
+    write(registers::kWaitIdle);
+  }
+
+  void write(std::uint64_t address) {
+    std::array<std::uint8_t, 4> word{};
+    tlm::tlm_generic_payload payload;
+    payload.set_write();
+    payload.set_address(address);
+    payload.set_data_ptr(word.data());
+    payload.set_data_length(word.size());
+    payload.set_streaming_width(word.size());
+    sc_core::sc_time delay;
+    socket->b_transport(payload, delay);
+  }
+};
+
+struct Platform {
+  Platform(const Frame& frame, const Config& config)
+      : host("host"), pipeline("pipeline", config), memory("memory", config, depth_bytes(frame, config)) {
+    host.socket.bind(pipeline.commands);
+    pipeline.memory.bind(memory.socket);
+  }
+
+  Host host;
+  RasterPipeline pipeline;
+  SimpleMemory memory;
+};
+
+class TraceFile {
+ public:
+  /// The kernel adds the extension.
+  explicit TraceFile(std::filesystem::path path)
+      : file_(sc_core::sc_create_vcd_trace_file(
+            (path.extension() == ".vcd" ? path.replace_extension() : path).c_str())) {
+    file_->set_time_unit(1, sc_core::SC_NS);
+  }
+  ~TraceFile() { sc_core::sc_close_vcd_trace_file(file_); }
+  TraceFile(const TraceFile&) = delete;
+  TraceFile& operator=(const TraceFile&) = delete;
+
+  [[nodiscard]] sc_core::sc_trace_file* get() const { return file_; }
+
+ private:
+  sc_core::sc_trace_file* file_;
+};
+
+}  // namespace
+
+FrameResult run_systemc(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                        TimedRun& run, const SystemcOptions& options) {
+  const SimulationContext context;
+  std::optional<TraceFile> trace;
+  Platform platform(frame, config);
+  platform.pipeline.bind_frame(frame, keep_visible, observer, run.stalls, run.times);
+  if (!options.vcd.empty()) {
+    trace.emplace(options.vcd);
+    platform.pipeline.trace(trace->get());
+  }
+  sc_core::sc_start();
+  platform.pipeline.check();
+  run.cycles = platform.pipeline.take_cycles();
+  return platform.pipeline.take_result();
+}
+
+}  // namespace halfspace

@@ -1,0 +1,22 @@
+/// Fidelity `systemc`: the machine as SystemC modules, the second implementation of the timing contract
+/// (docs/timing.md). Slower than `recurrence`, and what it computes it computes with real data in real FIFOs,
+/// caches and memory.
+#pragma once
+
+#include <filesystem>
+
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+
+namespace halfspace {
+
+struct SystemcOptions {
+  std::filesystem::path vcd;  ///< a waveform of links and stages, with or without .vcd; empty: none
+};
+
+/// Runs `frame` on the machine of `config`. Image, counters, events, cycles and times are those of
+/// run_recurrence. `observer` may be null. Throws systemc::DeadlockError where the machine comes to rest with
+/// work left, which a valid configuration never does. Not for several threads at a time.
+FrameResult run_systemc(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                        TimedRun& run, const SystemcOptions& options = {});
+
+}  // namespace halfspace

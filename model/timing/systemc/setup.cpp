@@ -1,0 +1,81 @@
+#include "halfspace/timing/systemc/setup.hpp"
+
+#include <algorithm>
+
+#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/tally.hpp"
+
+namespace halfspace::systemc {
+
+Setup::Setup(const sc_core::sc_module_name& name, RunState& run)
+    : sc_module(name),
+      out("out"),
+      run_(run),
+      meter_(Stage::kSetup, run),
+      queue_("setup_queue", run,
+             {.capacity = run.config.setup_queue,
+              .latency = kSetupCullLatency,
+              .statistics = Link::kSetupQueue,
+              .stalls = {}}) {
+  SC_THREAD(decide);
+}
+
+void Setup::begin_frame() {
+  next_cull_ = 0;
+  next_decision_ = 0;
+  divider_free_ = 0;
+}
+
+Cycle Setup::take(QueuedTriangle triangle, Cycle arrive) {
+  const Cycle at = std::max({arrive, next_cull_, queue_.credit(1)});
+  run_.clock.wait_until(at);
+  queue_.use_credit();
+  queue_.put(std::move(triangle), at);
+  next_cull_ = at + 1;
+  return at;
+}
+
+void Setup::decide() {
+  run_.guard([&] {
+    const auto interval = static_cast<Cycle>(run_.config.setup_interval);
+    SetupTriangle equations;
+    for (;;) {
+      meter_.waits_for(stall::kNoInput);
+      const Cycle visible = queue_.visible();
+      DrawWork* const work = queue_.front().work;
+      meter_.work_on(work);
+      meter_.stalled(stall::kNoInput, visible);
+
+      const SetupVerdict verdict = setup(queue_.front().triangle, work->setup, equations);
+      const bool drawn = verdict == SetupVerdict::kDrawn;
+      Cycle at = std::max(visible, next_decision_);
+      if (drawn) {
+        meter_.stalled(stall::kSetupDivider, divider_free_);
+        meter_.waits_for(stall::kSetupNoCredit);
+        const Cycle credit = out->credit();
+        meter_.stalled(stall::kSetupNoCredit, credit);
+        at = std::max({at, divider_free_, credit});
+      }
+      run_.clock.wait_until(at);
+
+      queue_.take(at);
+      run_.record(&PacketTimes::decide, at);
+      meter_.busy(at + 1);
+      next_decision_ = at + 1;
+      tally(work->counters.setup, verdict);
+      if (!drawn) {
+        run_.in_pipe.remove();
+        continue;
+      }
+      divider_free_ = at + interval;
+      out->use_credit();
+      const auto slot = static_cast<std::uint8_t>(work->counters.setup.drawn);
+      out->put({.work = work,
+                .triangle = std::make_shared<const DrawnTriangle>(
+                    DrawnTriangle{.equations = equations, .slot = slot})},
+               at);
+    }
+  });
+}
+
+}  // namespace halfspace::systemc

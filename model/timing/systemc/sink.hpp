@@ -1,0 +1,34 @@
+/// Takes what early_z gives, as pixel shading would: counts the fragments of each pixel, and shows the quads
+/// to who watches.
+#pragma once
+
+#include <systemc>
+
+#include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/tokens.hpp"
+
+namespace halfspace::systemc {
+
+class Sink : public sc_core::sc_module {
+ public:
+  SC_HAS_PROCESS(Sink);
+  Sink(const sc_core::sc_module_name& name, RunState& run);
+
+  sc_core::sc_port<CreditIn<TestedToken>> in;
+
+  void begin_frame();
+  /// First cycle after the last beat so far.
+  [[nodiscard]] Cycle next() const { return next_; }
+
+ private:
+  void take();
+  template <int TileSize>
+  void count_pixels(const TestedToken& token);
+  template <int TileSize>
+  void show_quads(const TestedToken& token, Cycle first_beat);
+
+  RunState& run_;
+  Cycle next_ = 0;
+};
+
+}  // namespace halfspace::systemc

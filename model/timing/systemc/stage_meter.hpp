@@ -1,0 +1,90 @@
+/// Accounts for every cycle of a stage.
+#pragma once
+
+#include <string>
+
+#include "halfspace/timing/systemc/run_state.hpp"
+#include "halfspace/timing/systemc/timed_signal.hpp"
+
+namespace halfspace::systemc {
+
+/// A stage tells it, in order of time, until when it was stalled by what and until when it was busy. What is
+/// past already is not counted again, so reasons are told in order of their priority.
+class StageMeter {
+ public:
+  StageMeter(Stage stage, RunState& run) : stage_(stage), run_(run) {}
+
+  void begin_frame() {
+    next_ = 0;
+    work_ = nullptr;
+    waits_for(stall::kNoInput);
+  }
+
+  /// The cycles that are told from here on are the draw's.
+  void work_on(DrawWork* work) { work_ = work; }
+
+  /// The cycles up to but without `end`.
+  void stalled(std::size_t reason, Cycle end) {
+    count(end, [&](StageCycles& cycles) -> std::uint64_t& { return cycles.stall[reason]; },
+          kFirstReason + static_cast<int>(reason));
+  }
+  void busy(Cycle end) {
+    count(end, [](StageCycles& cycles) -> std::uint64_t& { return cycles.busy; }, kBusy);
+  }
+
+  /// The rest of the frame.
+  void end_frame(Cycle end) {
+    work_ = nullptr;
+    stalled(stall::kNoInput, end);
+  }
+
+  /// What the stage is about to wait for; only to look at.
+  void waits_for(std::size_t reason) {
+    waits_for_ = reason;
+    if (signal_ != nullptr) {
+      signal_->set(next_, kFirstReason + static_cast<int>(reason));
+    }
+  }
+
+  /// First cycle that is not accounted for: when all packets have left the pipe, the first in which the stage
+  /// has nothing left to do.
+  [[nodiscard]] Cycle next() const { return next_; }
+
+  [[nodiscard]] std::string describe() const {
+    return "waits: " + std::string(kStageInfo[static_cast<std::size_t>(stage_)].stall[waits_for_]);
+  }
+  [[nodiscard]] std::string name() const {
+    return std::string(kStageInfo[static_cast<std::size_t>(stage_)].name);
+  }
+  void trace(TimedSignal* signal) { signal_ = signal; }
+
+  // Values in a trace.
+  static constexpr int kBusy = 1;
+  static constexpr int kFirstReason = 2;
+
+ private:
+  template <class Member>
+  void count(Cycle end, Member&& member, int state) {
+    if (end <= next_) {
+      return;
+    }
+    const auto stage = static_cast<std::size_t>(stage_);
+    member(run_.cycles.stats.stage[stage]) += end - next_;
+    if (CycleStats* const of_draw = work_ != nullptr ? work_->stats() : nullptr) {
+      member(of_draw->stage[stage]) += end - next_;
+    }
+    if (signal_ != nullptr) {
+      signal_->set(next_, state);
+    }
+    next_ = end;
+  }
+
+  Stage stage_;
+  RunState& run_;
+  Cycle next_ = 0;
+  DrawWork* work_ = nullptr;
+  std::size_t waits_for_ = 0;
+  TimedSignal* signal_ = nullptr;  ///< null where not traced
+};
+
+}  // namespace halfspace::systemc

@@ -1,0 +1,150 @@
+// Configurations that are refused: the error names the key, its value and what is legal.
+#include "halfspace/config/config.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "halfspace/numerics/error.hpp"
+
+using namespace halfspace;
+
+namespace {
+
+/// What is said about the defaults with these settings; empty where they are legal.
+std::string error_of(std::initializer_list<const char*> settings) {
+  Config config;
+  try {
+    for (const char* setting : settings) {
+      set_config(config, setting);
+    }
+    validate(config);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string without(std::string text, const std::string& part) {
+  const std::size_t at = text.find(part);
+  return at == std::string::npos ? text : text.erase(at, part.size());
+}
+
+}  // namespace
+
+TEST_CASE("config: no key takes a value outside its list, and the error says all three") {
+  for (const ConfigKey& key : config_keys({})) {
+    for (const char* value : {"0", "-1", "3.5", "", " ", "8 ", "0x8", "1e3", "99999", "99999999999999999999",
+                              "TRUE", "yes", "Plane"}) {
+      CAPTURE(key.name, value);
+      Config config;
+      CHECK_THROWS_WITH(set_config(config, key.name, value),
+                        "configuration key '" + key.name + "' is '" + value + "'; legal: " + key.legal);
+    }
+  }
+}
+
+TEST_CASE("config: a capacity of 0, a width of 0, a size that is no power of two") {
+  CHECK(error_of({"quad_generator.fifo=0"}) ==
+        "configuration key 'quad_generator.fifo' is '0'; legal: 2 to 64");
+  CHECK(error_of({"quad_generator.fifo=1"}) ==
+        "configuration key 'quad_generator.fifo' is '1'; legal: 2 to 64");
+  CHECK(error_of({"edge_evaluator.fifo=33"}) ==
+        "configuration key 'edge_evaluator.fifo' is '33'; legal: 2 to 32");
+  CHECK(error_of({"setup.queue=0"}) == "configuration key 'setup.queue' is '0'; legal: 2 to 64");
+  CHECK(error_of({"early_z.pending=65"}) == "configuration key 'early_z.pending' is '65'; legal: 2 to 64");
+  CHECK(error_of({"z_cache.write_buffers=0"}) ==
+        "configuration key 'z_cache.write_buffers' is '0'; legal: 1 to 64");
+  CHECK(error_of({"quad_generator.quads_per_cycle=0"}) ==
+        "configuration key 'quad_generator.quads_per_cycle' is '0'; legal: 1, 2, 4, 8, 16");
+  CHECK(error_of({"memory.read_bytes=0"}).find("legal: 1, 2, 4, 8,") != std::string::npos);
+  for (const char* power :
+       {"walker.tile_size=12", "walker.block_size=24", "setup.interval=3", "quad_generator.quads_per_cycle=3",
+        "early_z.quads_per_cycle=6", "z_cache.lines=100", "z_cache.ways=3", "z_cache.parts=3",
+        "z_cache.clear_tiles=48", "memory.read_bytes=48", "memory.write_bytes=96"}) {
+    CAPTURE(power);
+    const std::string setting(power);
+    const std::string key = setting.substr(0, setting.find('='));
+    const std::string value = setting.substr(key.size() + 1);
+    CHECK(error_of({power}).rfind("configuration key '" + key + "' is '" + value + "'; legal: ", 0) == 0);
+  }
+}
+
+TEST_CASE("config: an unknown key is answered with those that exist") {
+  for (const char* setting :
+       {"walker.tile_sise=8", "tile_size=8", "walker=8", "=8", "walker.tile_size.x=8"}) {
+    const std::string error = error_of({setting});
+    CAPTURE(setting, error);
+    const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
+    CHECK(error.rfind("unknown configuration key '" + key + "'; legal: ", 0) == 0);
+    for (const ConfigKey& each : config_keys({})) {
+      CHECK(error.find(each.name) != std::string::npos);
+    }
+  }
+  CHECK(error_of({"walker.tile_size"}) == "'walker.tile_size' is not a setting; it must read KEY=VALUE");
+}
+
+TEST_CASE("config: keys that must fit each other") {
+  CHECK(error_of({"walker.block_size=8"}) ==
+        "configuration key 'walker.block_size' is 8; legal: larger than 'walker.tile_size' (8)");
+  CHECK(error_of({"walker.tile_size=16", "walker.block_size=16"}) ==
+        "configuration key 'walker.block_size' is 16; legal: larger than 'walker.tile_size' (16)");
+  CHECK(error_of({"walker.tile_size=4", "quad_generator.quads_per_cycle=8"}) ==
+        "configuration key 'quad_generator.quads_per_cycle' is 8; legal: at most the quads of a tile (4)");
+  CHECK(error_of({"early_z.quads_per_cycle=8"}) ==
+        "configuration key 'early_z.quads_per_cycle' is 8; legal: at most 'quad_generator.quads_per_cycle' "
+        "(4)");
+  CHECK(error_of({"walker.tile_size=4", "z_cache.parts=4"}) ==
+        "configuration key 'z_cache.parts' is 4; legal: at most the rows of quads of a tile (2)");
+  CHECK(error_of({"z_cache.lines=8", "z_cache.ways=4", "z_cache.parts=4"}) ==
+        "configuration key 'z_cache.lines' is 8; legal: at least 'z_cache.ways' times 'z_cache.parts' (16)");
+  CHECK(error_of({"z_cache.parts=4", "z_cache.misses_in_flight=3"}) ==
+        "configuration key 'z_cache.misses_in_flight' is 3; legal: at least 'z_cache.parts' (4)");
+  CHECK(error_of({"z_cache.parts=4", "z_cache.write_buffers=3"}) ==
+        "configuration key 'z_cache.write_buffers' is 3; legal: at least 'z_cache.parts' (4)");
+  // And the same just inside.
+  CHECK(error_of({"walker.tile_size=4", "walker.block_size=8"}).empty());
+  CHECK(error_of({"quad_generator.quads_per_cycle=16", "early_z.quads_per_cycle=16"}).empty());
+  CHECK(error_of({"walker.tile_size=4", "z_cache.parts=2"}).empty());
+  CHECK(error_of({"z_cache.lines=16", "z_cache.ways=4", "z_cache.parts=4"}).empty());
+  CHECK(error_of({"z_cache.parts=4", "z_cache.misses_in_flight=4", "z_cache.write_buffers=4"}).empty());
+}
+
+TEST_CASE("config: a file is refused by its name too, and one that was written is read back") {
+  std::string pattern = (std::filesystem::temp_directory_path() / "halfspace_config.XXXXXX").string();
+  REQUIRE(mkdtemp(pattern.data()) != nullptr);
+  const std::filesystem::path folder(pattern);
+  const std::filesystem::path path = folder / "machine.toml";
+  const auto error_of_file = [&](const std::string& text) -> std::string {
+    std::ofstream(path) << text;
+    try {
+      read_config(path);
+    } catch (const InputError& error) {
+      return without(error.what(), folder.string() + "/");
+    }
+    return "";
+  };
+  CHECK(error_of_file("[setup]\nfifo = 0\n") ==
+        "machine.toml: configuration key 'setup.fifo' is '0'; legal: 2 to 64");
+  CHECK(error_of_file("[setup]\nfifo = 4.0\n").find("'setup.fifo' must be an integer") != std::string::npos);
+  CHECK(error_of_file("[setup]\nfifo = [4]\n").find("'setup.fifo' must be an integer") != std::string::npos);
+  CHECK(
+      error_of_file("[setup]\nlifo = 4\n").rfind("machine.toml: unknown configuration key 'setup.lifo'", 0) ==
+      0);
+  CHECK(error_of_file("[setup.fifo]\nsize = 4\n").find("unknown configuration key 'setup.fifo.size'") !=
+        std::string::npos);
+  CHECK(error_of_file("[setup]\nfifo = 4\nfifo = 5\n").find("line 3") != std::string::npos);
+  CHECK(error_of_file("").empty());
+
+  Config config;
+  for (const char* setting : {"late_z=no_write", "walker.tile_size=16", "walker.block_level=false",
+                              "depth.interpolator=plane", "memory.latency=65535", "setup.interval=16"}) {
+    set_config(config, setting);
+  }
+  CHECK(error_of_file(to_toml(config)).empty());
+  CHECK(to_toml(read_config(path)) == to_toml(config));
+  CHECK(config_hash(read_config(path)) == config_hash(config));
+  CHECK(config_hash(config) != config_hash({}));
+  std::filesystem::remove_all(folder);
+}
