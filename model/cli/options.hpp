@@ -41,7 +41,6 @@ struct StallOptions {
   std::string seed;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] bool given() const { return !stalls.empty() || !seed.empty(); }
   [[nodiscard]] StallPlan plan() const;  ///< throws InputError
 };
 

@@ -1,8 +1,13 @@
 /// halfspace run: the main job.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -16,8 +21,10 @@
 #include "halfspace/report/stats.hpp"
 #include "halfspace/report/tile_job_file.hpp"
 #include "halfspace/report/timeline.hpp"
+#include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/functional.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/timing/systemc/run_systemc.hpp"
 
 namespace halfspace {
 namespace {
@@ -30,52 +37,81 @@ struct RunOptions {
   std::string fidelity = "functional";
   std::string out;
   std::string tile_jobs;
+  std::string vcd;
   bool quads = false;
   bool tiles = false;
   bool no_pictures = false;
 };
 
-/// A way to have time.
+/// The file that the SystemC kernel will write, which adds .vcd where it is missing. The kernel takes for
+/// granted that it can: it ends the program where it cannot.
+std::filesystem::path writable_vcd(std::filesystem::path path) {
+  if (!path.empty()) {
+    path += path.extension() == ".vcd" ? "" : ".vcd";
+    if (!std::ofstream(path)) {
+      throw InputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+    }
+  }
+  return path;
+}
+
+/// What a run takes and gives beside the frame.
+struct Times {
+  TimedRun packets;
+  std::optional<AnalyticFrame> estimate;
+};
+
+/// A way to have time, and what it can do beside.
 struct Fidelity {
   const char* name;
-  bool timed;
-  bool observed;  ///< fills a timeline
-  FrameResult (*run)(const Frame&, const Config&, bool keep_visible, PacketObserver*, TimedRun&,
+  bool packets;   ///< when every packet moves: stalls can be injected
+  bool timeline;  ///< tells where the cycles go
+  bool vcd;
+  FrameResult (*run)(const Frame&, const Config&, bool keep_visible, PacketObserver*, Times&,
                      const RunOptions&);
 };
 
 constexpr std::array kFidelities{
-    Fidelity{
-        "functional", false, false,
-        [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer, TimedRun&,
-           const RunOptions&) { return run_functional(frame, config, keep_visible, observer); }},
-    Fidelity{"recurrence", true, true,
+    Fidelity{"functional", false, false, false,
+             [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer, Times&,
+                const RunOptions&) { return run_functional(frame, config, keep_visible, observer); }},
+    Fidelity{"analytic", false, false, false,
              [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
-                TimedRun& timed,
-                const RunOptions&) { return run_recurrence(frame, config, keep_visible, observer, timed); }},
+                Times& times, const RunOptions&) {
+               return run_analytic(frame, config, keep_visible, observer, times.estimate.emplace());
+             }},
+    Fidelity{"recurrence", true, true, false,
+             [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                Times& times, const RunOptions&) {
+               return run_recurrence(frame, config, keep_visible, observer, times.packets);
+             }},
+    Fidelity{"systemc", true, false, true,
+             [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                Times& times, const RunOptions& options) {
+               return run_systemc(frame, config, keep_visible, observer, times.packets,
+                                  {.vcd = writable_vcd(options.vcd)});
+             }},
 };
-
-/// The fidelities for which `has` holds, as in "a, b".
-std::string fidelity_names(bool Fidelity::*has) {
-  std::string names;
-  for (const Fidelity& fidelity : kFidelities) {
-    names += fidelity.*has ? (names.empty() ? "" : ", ") + std::string(fidelity.name) : "";
-  }
-  return names;
-}
 
 /// Refuses options that are nothing to the fidelity.
 void check_fidelity(const Fidelity& fidelity, const RunOptions& options) {
-  const auto refuse = [&](const char* option, bool Fidelity::*needs) {
-    throw InputError(fmt::format("{} has no effect with --fidelity {}; legal: {}", option, fidelity.name,
-                                 fidelity_names(needs)));
+  const auto demand = [&](bool given, const char* option, bool Fidelity::*needed) {
+    if (!given || fidelity.*needed) {
+      return;
+    }
+    std::vector<const char*> names;
+    for (const Fidelity& each : kFidelities) {
+      if (each.*needed) {
+        names.push_back(each.name);
+      }
+    }
+    throw InputError(fmt::format("--fidelity is '{}'; with {} it must be one of: {}", fidelity.name, option,
+                                 fmt::join(names, ", ")));
   };
-  if (!fidelity.timed && options.stalls.given()) {
-    refuse(options.stalls.stalls.empty() ? "--seed" : "--stall", &Fidelity::timed);
-  }
-  if (!fidelity.observed && options.timeline.wanted) {
-    refuse("--timeline", &Fidelity::observed);
-  }
+  demand(!options.stalls.stalls.empty(), "--stall", &Fidelity::packets);
+  demand(!options.stalls.seed.empty(), "--seed", &Fidelity::packets);
+  demand(options.timeline.wanted, "--timeline", &Fidelity::timeline);
+  demand(!options.vcd.empty(), "--vcd", &Fidelity::vcd);
 }
 
 /// Records what was asked for and shows progress. `timeline` may be null.
@@ -125,13 +161,24 @@ void row(std::string_view unit, std::uint64_t value, const std::string& what) {
   fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
 }
 
+/// What bounds the draws, by the cycles of those it bounds.
+void print_bounds(const AnalyticFrame& frame) {
+  std::array<std::uint64_t, kBounds> cycles{};
+  for (const AnalyticDraw& draw : frame.draws) {
+    cycles[static_cast<std::size_t>(draw.bound)] += draw.cycles;
+  }
+  for (std::size_t i = 0; i < kBounds; ++i) {
+    if (cycles[i] != 0) {
+      row(kBoundName[i], cycles[i], "cycles of the draws that it bounds");
+    }
+  }
+}
+
 /// Where the cycles went: each stage's two largest reasons to wait, memory.
 void print_cycles(const FrameResult& result, const FrameCycles& frame) {
   const auto share = [&frame](std::uint64_t cycles) {
     return fmt::format("{:.1f}%", percent(cycles, frame.cycles));
   };
-  const auto quads = static_cast<double>(result.counters.quad_generator.quads);
-  row("cycles", frame.cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(frame.cycles)));
   for (std::size_t i = 0; i < kStages; ++i) {
     const StageCycles& cycles = frame.stats.stage[i];
     std::array<std::size_t, kMostStallReasons> reasons{0, 1, 2, 3, 4};
@@ -186,8 +233,8 @@ void run(const RunOptions& options) {
     return each.name == options.fidelity;  // one of them is: the parser has seen to it
   });
   check_fidelity(fidelity, options);
-  TimedRun timed;
-  timed.stalls = options.stalls.plan();
+  Times times;
+  times.packets.stalls = options.stalls.plan();
   const TimelineChoice choice = options.timeline.choice();
   const Config config = options.machine.config();
   const Frame frame = options.input.frame();
@@ -205,22 +252,29 @@ void run(const RunOptions& options) {
   }
   std::optional<Timeline> timeline;
   if (options.timeline.wanted) {
-    timed.observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
+    times.packets.observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
   }
   RunObserver observer(frame, config, record, options.tile_jobs, timeline ? &*timeline : nullptr);
-  const FrameResult result = fidelity.run(frame, config, record.sums, &observer, timed, options);
+  const FrameResult result = fidelity.run(frame, config, record.sums, &observer, times, options);
   observer.finish();
   if (timeline) {
-    timeline->finish(timed.cycles.cycles);
+    timeline->finish(times.packets.cycles.cycles);
   }
+  const RunTime time{.packets = fidelity.packets ? &times.packets : nullptr,
+                     .estimate = times.estimate ? &*times.estimate : nullptr};
   if (folder) {
-    write_result_files(*folder, frame, config, fidelity.name, result, fidelity.timed ? &timed : nullptr,
-                       observer);
+    write_result_files(*folder, frame, config, fidelity.name, result, time, observer);
     folder->commit();
   }
   print_table(frame, result);
-  if (fidelity.timed) {
-    print_cycles(result, timed.cycles);
+  if (const std::optional<std::uint64_t> cycles = time.cycles()) {
+    const auto quads = static_cast<double>(result.counters.quad_generator.quads);
+    row("cycles", *cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(*cycles)));
+  }
+  if (time.packets != nullptr) {
+    print_cycles(result, time.packets->cycles);
+  } else if (time.estimate != nullptr) {
+    print_bounds(*time.estimate);
   }
   if (folder) {
     fmt::print("  results in {}\n", options.out);
@@ -250,6 +304,8 @@ void add_run_command(CLI::App& app, int& /*status*/) {
       ->needs(out);
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
+  command->add_option("--vcd", options->vcd, "write what links and stages do as a waveform (systemc)")
+      ->type_name("FILE");
   command
       ->add_option("--tile-jobs", options->tile_jobs,
                    "write the tile jobs of the edge evaluator, for its bench")

@@ -38,7 +38,7 @@ void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t numb
 }  // namespace
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config,
-                        const std::string& fidelity, const FrameResult& result, const TimedRun* timed,
+                        const std::string& fidelity, const FrameResult& result, const RunTime& time,
                         const Recorder& recorder) {
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
@@ -57,7 +57,7 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     write_png(picture("quads"), quad_picture(surface, recorder.lanes[i]));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);
-  write_stats(stats, frame, config, fidelity, result, timed, folder.files());
+  write_stats(stats, frame, config, fidelity, result, time, folder.files());
 }
 
 }  // namespace halfspace

@@ -88,9 +88,7 @@ Json frame_time_json(const FrameCycles& frame, const FrameResult& result) {
   Json memory = memory_json(frame.stats, memory_bytes_read(result), memory_bytes_written(result));
   memory["read_utilisation"] = ratio(frame.stats.read_busy, frame.cycles);
   memory["write_utilisation"] = ratio(frame.stats.write_busy, frame.cycles);
-  return {{"cycles", frame.cycles},
-          {"quads_per_cycle", ratio(result.counters.quad_generator.quads, frame.cycles)},
-          {"stages", stages_json(frame.stats)},
+  return {{"stages", stages_json(frame.stats)},
           {"links", links_json(frame.stats)},
           {"memory", std::move(memory)}};
 }
@@ -100,6 +98,10 @@ Json draw_time_json(const DrawCycles& draw, const EarlyZCounters& counters) {
           {"stages", stages_json(draw.stats)},
           {"links", links_json(draw.stats)},
           {"memory", memory_json(draw.stats, counters.bytes_read, counters.bytes_written)}};
+}
+
+Json draw_time_json(const AnalyticDraw& draw) {
+  return {{"cycles", draw.cycles}, {"bound", kBoundName[static_cast<std::size_t>(draw.bound)]}};
 }
 
 Json stalls_json(const StallPlan& plan) {
@@ -125,16 +127,17 @@ std::uint64_t memory_bytes_written(const FrameResult& result) {
 }
 
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result, const TimedRun* timed,
+                 const std::string& fidelity, const FrameResult& result, const RunTime& time,
                  const std::vector<std::string>& files) {
   Json json;
   json["schema"] = kStatsSchema;
   json["schema_version"] = kStatsSchemaVersion;
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
   json["fidelity"] = fidelity;
-  json["cycles"] = timed == nullptr ? Json() : Json(timed->cycles.cycles);
-  json["seed"] = timed == nullptr ? Json() : Json(timed->stalls.seed);
-  json["stalls"] = timed == nullptr ? Json() : stalls_json(timed->stalls);
+  const std::optional<std::uint64_t> cycles = time.cycles();
+  json["cycles"] = cycles ? Json(*cycles) : Json();
+  json["seed"] = time.packets != nullptr ? Json(time.packets->stalls.seed) : Json();
+  json["stalls"] = time.packets != nullptr ? stalls_json(time.packets->stalls) : Json();
   for (const ConfigKey& key : config_keys(config)) {
     json["config"][key.name] = key.value;
   }
@@ -149,8 +152,12 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                    {"flushed_bytes", result.flushed_bytes},
                    {"counters", counters_json(result.counters)},
                    {"drawn_clears", counters_json(result.drawn_clears)}};
-  if (timed != nullptr) {
-    json["frame"]["time"] = frame_time_json(timed->cycles, result);
+  if (cycles) {
+    json["frame"]["time"] = {{"cycles", *cycles},
+                             {"quads_per_cycle", ratio(result.counters.quad_generator.quads, *cycles)}};
+  }
+  if (time.packets != nullptr) {
+    json["frame"]["time"].update(frame_time_json(time.packets->cycles, result));
   }
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
@@ -171,8 +178,10 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"target", command.target},
                              {"surface", draw.surface == kNoSurface ? Json() : Json(draw.surface)},
                              {"counters", counters_json(draw.counters)}});
-    if (timed != nullptr) {
-      json["draws"].back()["time"] = draw_time_json(timed->cycles.draws[i], draw.counters.early_z);
+    if (time.packets != nullptr) {
+      json["draws"].back()["time"] = draw_time_json(time.packets->cycles.draws[i], draw.counters.early_z);
+    } else if (time.estimate != nullptr) {
+      json["draws"].back()["time"] = draw_time_json(time.estimate->draws[i]);
     }
   }
   json["files"] = files;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/report/run_time.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/frame_result.hpp"
-#include "halfspace/timing/recurrence/run_recurrence.hpp"
 
 namespace halfspace {
 
@@ -20,11 +20,10 @@ inline constexpr int kStatsSchemaVersion = 2;
 std::uint64_t memory_bytes_read(const FrameResult& result);
 std::uint64_t memory_bytes_written(const FrameResult& result);
 
-/// Writes stats.json to `path`. `timed` is null where the fidelity has no time. `files` lists the names of
-/// all files of the result, stats.json included. The content depends on frame, configuration, injected stalls
-/// and version only. Throws InputError.
+/// Writes stats.json to `path`. `files` lists the names of all files of the result, stats.json included. The
+/// content depends on frame, configuration, injected stalls and version only. Throws InputError.
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result, const TimedRun* timed,
+                 const std::string& fidelity, const FrameResult& result, const RunTime& time,
                  const std::vector<std::string>& files);
 
 }  // namespace halfspace

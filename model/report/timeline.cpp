@@ -47,8 +47,7 @@ void Timeline::write_head(const Frame& frame, const Config& config) {
                                      {"frame", frame.name},
                                      {"config_hash", config_hash(config)},
                                      {"time", "1 cycle is shown as 1 us"}};
-  fmt::format_to(std::back_inserter(buffer_),
-                 "{{\"otherData\":{},\n\"traceEvents\":[", about.dump());
+  fmt::format_to(std::back_inserter(buffer_), "{{\"otherData\":{},\n\"traceEvents\":[", about.dump());
   const auto name_process = [this](Process process, std::string_view name) {
     fmt::format_to(std::back_inserter(begin_event()),
                    R"({{"ph":"M","name":"process_name","pid":{},"args":{{"name":"{}"}}}})",

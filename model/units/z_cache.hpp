@@ -8,6 +8,7 @@
 /// Architecture", Graphics Hardware 1998. docs/units/early_z.md has the protocol.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -112,10 +113,15 @@ class ZTags {
     return {.hit = hit, .slot = found.slot};
   }
 
-  /// Forgets the lines `first` to `last` of memory, inclusive.
+  /// Forgets the lines `first` to `last` of memory, inclusive. Slots that become free are taken before any line
+  /// has to leave, the one used longest ago first.
   void drop(std::uint32_t first, std::uint32_t last) {
     for (Entry& entry : entries_) {
       entry.line = entry.line >= first && entry.line <= last ? kNoZLine : entry.line;
+    }
+    for (auto set = entries_.begin(); set != entries_.end(); set += shape_.ways) {
+      std::stable_partition(set, set + shape_.ways,
+                            [](const Entry& entry) { return entry.line != kNoZLine; });
     }
   }
 

@@ -111,6 +111,21 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
     CAPTURE(outcome.out);
     CHECK(outcome.status == 0);
   }
+  SECTION("so has one that only estimates it") {
+    REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);
+    REQUIRE(place.run(run + "/b --fidelity analytic").status == 0);
+    const Outcome outcome = place.run(diff);
+    CAPTURE(outcome.out);
+    CHECK(outcome.status == 0);
+  }
+  SECTION("the two engines that move packets agree in everything") {
+    const std::string stalls = " --stall source:30:9 --stall edge_evaluator:20:30 --seed 4";
+    REQUIRE(place.run(run + "/a --fidelity recurrence" + stalls).status == 0);
+    REQUIRE(place.run(run + "/b --fidelity systemc" + stalls).status == 0);
+    const Outcome outcome = place.run(diff);
+    CAPTURE(outcome.out);
+    CHECK(outcome.status == 0);
+  }
   SECTION("two runs with time are compared in time too") {
     REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);
     REQUIRE(place.run(run + "/b --fidelity recurrence").status == 0);
@@ -162,6 +177,12 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
     check_error(place.run(timed + " --seed=" + seed), {"--seed", seed, "0 to 18446744073709551615"});
   }
   check_error(place.run("run " + cube + " --stall sink:10:4"), {"--stall", "functional", "recurrence"});
+  check_error(place.run("run " + cube + " --fidelity analytic --stall sink:10:4"),
+              {"--stall", "analytic", "recurrence, systemc"});
+  check_error(place.run("run " + cube + " --fidelity recurrence --vcd w.vcd"),
+              {"--vcd", "recurrence", "systemc"});
+  check_error(place.run("run " + cube + " --fidelity systemc --vcd /proc/nowhere/w"),
+              {"/proc/nowhere/w.vcd", "cannot be written"});
   check_error(place.run("run " + cube + " --seed 1"), {"--seed", "functional", "recurrence"});
   check_error(place.run("run nothing.ptf"), {"nothing.ptf"});
   check_error(place.run("run " + scene("README.md")), {"README.md", ".ptf"});
@@ -236,6 +257,34 @@ TEST_CASE("run: stalls are a function of their seed, cost time and nothing else"
   CHECK(stats("plain")["stalls"] == Json::object());
   CHECK(stats("a")["frame"]["counters"] == stats("plain")["frame"]["counters"]);
   CHECK(slurp(place.path / "a" / "depth0.npy") == slurp(place.path / "plain" / "depth0.npy"));
+}
+
+TEST_CASE("run: an estimate has the cycles of the frame and of each draw, and what bounds it") {
+  const Place place;
+  const fs::path out = place.path / "result";
+  const Outcome outcome =
+      place.run("run " + scene("vkcube.ptf.xz") + " --no-pictures --fidelity analytic --out " + out.string());
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.out.find("quads a cycle\n") != std::string::npos);
+  CHECK(outcome.out.find("cycles of the draws that it bounds") != std::string::npos);
+  const Json stats = read_stats(out);
+  CHECK(stats["seed"].is_null());
+  CHECK(stats["frame"]["time"]["cycles"] == stats["cycles"]);
+  CHECK(!stats["frame"]["time"].contains("stages"));
+  CHECK(stats["draws"][0]["time"]["bound"] == "quad_generator");
+  CHECK(stats["draws"][0]["time"]["cycles"] < stats["cycles"]);
+}
+
+TEST_CASE("run: systemc writes a waveform") {
+  const Place place;
+  const std::string run =
+      "run " + scene("vkcube.ptf.xz") + " --fidelity systemc --vcd " + place.path.string();
+  for (const char* name : {"/a.vcd", "/b"}) {
+    REQUIRE(place.run(run + name).status == 0);
+  }
+  for (const char* name : {"a.vcd", "b.vcd"}) {
+    CHECK(slurp(place.path / name).find("$enddefinitions") != std::string::npos);
+  }
 }
 
 TEST_CASE("run: the table says where the cycles went, where there are some") {

@@ -237,7 +237,7 @@ TEST_CASE("timeline: what cannot be shown is refused, and nothing is left behind
   };
   refused("cc0_truck.ptf.xz", "", {"2000000 events", "--timeline-draws", "--timeline-cycles"});
   refused("vkcube.ptf.xz", "--timeline-draws 0:1", {"draws 0 to 1", "vkcube", "has 1"});
-  refused("vkcube.ptf.xz", "--timeline-cycles 1000000:1000001", {"cycle 1000000", "last is 5832"});
+  refused("vkcube.ptf.xz", "--timeline-cycles 1000000:1000001", {"cycle 1000000", "the frame's last is "});
   for (const char* range : {"1", "2:1", "a:b", "1:2:3", "-1:2"}) {
     refused("vkcube.ptf.xz", std::string("--timeline-cycles=") + range,
             {"--timeline-cycles", range, "FIRST:LAST"});

@@ -17,8 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::HWY_NAMESPACE {
 
-/// Feeds `core` with the packets of `record`. Calls draw_done(core) after each draw, and takes
-/// clear_cycles(tiles) for the time of a fast clear.
+/// Feeds `core` with the packets of `record`. Calls draw_done(core, bursts) after each draw, with whether it
+/// had any bursts, and takes clear_cycles(tiles) for the time of a fast clear.
 template <class Core, class ClearCycles, class DrawDone>
 void replay(const FrameRecord& record, const ZTrace& trace, Core& core, const ClearCycles& clear_cycles,
             const DrawDone& draw_done) {
@@ -33,6 +33,7 @@ void replay(const FrameRecord& record, const ZTrace& trace, Core& core, const Cl
       core.fast_clear(clear_cycles(record.surfaces[segment.surface].tiles));
       continue;
     }
+    bool bursts = false;
     const RecordedTriangle* const last = triangle + segment.triangles;
     for (; triangle != last; ++triangle) {
       for (std::uint32_t i = 0; i < triangle->dropped_before; ++i) {
@@ -50,6 +51,7 @@ void replay(const FrameRecord& record, const ZTrace& trace, Core& core, const Cl
           work.misses = {first, miss};
           ++access;
         }
+        bursts |= work.quads != 0;
         core.job(work);
       }
       core.walked(triangle->steps_after);
@@ -58,7 +60,7 @@ void replay(const FrameRecord& record, const ZTrace& trace, Core& core, const Cl
       core.dropped();
     }
     if (segment.kind == RecordedSegment::Kind::kDraw) {
-      draw_done(core);
+      draw_done(core, bursts);
     }
   }
 }

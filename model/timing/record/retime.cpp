@@ -22,7 +22,10 @@ RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Co
   HWY_NAMESPACE::replay(
       record, trace, core,
       [&](std::uint32_t tiles) { return static_cast<std::uint64_t>(fast_clear_cycles(tiles, config)); },
-      [&](const auto& c) { result.draw_end.push_back(std::max<std::uint64_t>(c.sink_next(), 1) - 1); });
+      [&](const auto& c, bool bursts) {
+        const std::uint64_t before = result.draw_end.empty() ? 0 : result.draw_end.back();
+        result.draw_end.push_back(bursts ? c.sink_next() - 1 : before);
+      });
   result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_lines));
   return result;
 }

@@ -227,10 +227,12 @@ void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<cons
       [&](std::uint32_t tiles) {
         return gather(configs, [&](const Config& config) { return fast_clear_cycles(tiles, config); });
       },
-      [&](const auto& c) {
+      [&](const auto& c, bool bursts) {
         c.sink_next().store(cycles.data());
         for (std::size_t i = 0; i < configs.size(); ++i) {
-          results[i].draw_end.push_back(std::max(cycles[i], 1u) - 1);
+          std::vector<std::uint64_t>& ends = results[i].draw_end;
+          const std::uint64_t before = ends.empty() ? 0 : ends.back();
+          ends.push_back(bursts ? cycles[i] - 1 : before);
         }
       });
   // lanes share the shape of the z cache, so the number of its lines too

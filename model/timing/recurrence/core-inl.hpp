@@ -160,10 +160,10 @@ class RecurrenceCore {
     return c + kSetupCullLatency;
   }
 
-  /// The first cycle in which no stage has anything left to do.
+  /// The first cycle in which no stage, no write to memory and no clear has anything left to do.
   [[nodiscard]] T idle() const {
     return later(later(later(decide_next_, walk_next_), later(e_next_, g_next_)),
-                 later(later(f_next_, b_next_), later(y_next_, clear_next_)));
+                 later(later(f_next_, b_next_), later(y_next_, later(clear_next_, written_next_))));
   }
 
   void burst(const JobWork& work, const T& g) {
@@ -176,7 +176,7 @@ class RecurrenceCore {
     fifo(Fifo::kQuadGenerator).give(moved);
     f_next_ = moved;
     const Misses misses = work.misses;
-    const T filled_next = misses.empty() ? T{} : request(misses, f, moved);
+    const T filled_next = misses.empty() ? T{} : resolve(misses, f, moved);
     const T slots = misses.empty() ? T{} : write_slots(misses);
     const T b = later(later(later(f + kLookupLatency, b_next_), later(filled_next, slots)),
                       fifo(Fifo::kEarlyZ).usable());
@@ -198,27 +198,31 @@ class RecurrenceCore {
     ++bursts_;
   }
 
-  /// Sends the requests of the parts to fetch; gives the cycle from which on the last of them is there.
-  T request(Misses misses, const T& f, const T& moved) {
-    T request_next = f + 1;
+  /// Resolves the missing parts, one after the other, and sends the requests of those to fetch; gives the
+  /// cycle from which on all of them are there.
+  T resolve(Misses misses, const T& f, const T& moved) {
+    T resolve_next = f + 1;
     T there{};
     std::size_t sent = 0;
     for (const ZMiss& part : misses) {
-      if (!part.fetch) {
-        continue;
-      }
-      const T buffer = later(request_next, fifo(Fifo::kFillBuffers).usable(sent));
+      const T buffer = part.fetch ? later(resolve_next, fifo(Fifo::kFillBuffers).usable(sent)) : resolve_next;
       const T r = later(buffer, out_.get(part.line));
       if constexpr (Probe::kLooks) {
-        probe_.request(moved, request_next, buffer, r);
-        probe_.read(machine_.read_cycles[log2_bytes(part.bytes)]);
+        probe_.request(moved, resolve_next, buffer, r);
+      }
+      resolve_next = r + 1;
+      if (!part.fetch) {
+        there = later(there, resolve_next);
+        continue;
       }
       ++sent;
-      request_next = r + 1;
       there = later(r + machine_.memory_latency, filled_next_) + machine_.read_cycles[log2_bytes(part.bytes)];
       filled_next_ = there;
+      if constexpr (Probe::kLooks) {
+        probe_.read(machine_.read_cycles[log2_bytes(part.bytes)], there);
+      }
     }
-    f_next_ = later(moved, request_next);
+    f_next_ = later(moved, resolve_next);
     return there;
   }
 
@@ -256,7 +260,7 @@ class RecurrenceCore {
     written_next_ = later(from, written_next_) + cycles;
     fifo(Fifo::kWriteBuffers).give(written_next_);
     if constexpr (Probe::kLooks) {
-      probe_.write(cycles);
+      probe_.write(cycles, written_next_);
     }
   }
 

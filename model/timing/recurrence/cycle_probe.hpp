@@ -140,9 +140,8 @@ class CycleProbe {
 
   void sink(Cycle b, Cycle y, Cycle next) {
     link(Link::kEarlyZ, b, next);
-    end_ = next - 1;
     if (in_draw_) {
-      draws_.back().end = end_;
+      draws_.back().end = end_ = next - 1;
     }
     note(&PacketTimes::y, y);
   }

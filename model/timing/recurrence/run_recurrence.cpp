@@ -7,7 +7,6 @@
 namespace halfspace {
 namespace {
 
-
 /// The clock of a traversal.
 template <class Stalls, bool kObserved>
 class RecurrenceClock {
@@ -41,15 +40,15 @@ class RecurrenceClock {
 
  private:
   const Config& config_;
-  CycleProbe probe_;
-  RecurrenceCore<OneMachine, Stalls, CycleProbe> core_;
+  CycleProbe<kObserved> probe_;
+  RecurrenceCore<OneMachine, Stalls, CycleProbe<kObserved>> core_;
   std::uint64_t cycles_ = 0;
 };
 
-template <class Stalls>
+template <bool kObserved, class Stalls>
 FrameResult run_with(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
                      const Stalls& stalls, TimedRun& run) {
-  RecurrenceClock<Stalls> clock(config, stalls, run.times);
+  RecurrenceClock<Stalls, kObserved> clock(config, stalls, run);
   FrameResult result = run_pipeline(frame, config, keep_visible, observer, clock);
   run.cycles = clock.finish();
   return result;

@@ -1,9 +1,9 @@
 /// The FIFO between two stages, with credits: docs/timing.md, *Cycles and packets*.
 ///
-/// A link works with time stamps. The producer asks from which cycle on it may use a credit, the consumer from
-/// which cycle on it may take the packet at the head; each then waits for the latest of all it needs, and
-/// acts once. Whatever one side does shows on the other in a later cycle only, so the order in which the kernel
-/// runs the processes of a cycle decides nothing.
+/// A link works with time stamps. The producer asks from which cycle on it may use a credit, the consumer
+/// from which cycle on it may take the packet at the head; each then waits for the latest of all it needs,
+/// and acts once. Whatever one side does shows on the other in a later cycle only, so the order in which the
+/// kernel runs the processes of a cycle decides nothing.
 #pragma once
 
 #include <deque>
@@ -51,7 +51,7 @@ class CreditLinkBase {
   /// One line for people: what it holds, and what its head waits for.
   [[nodiscard]] virtual std::string describe() const = 0;
   [[nodiscard]] virtual const char* link_name() const = 0;
-  void trace(TimedSignal* signal) { signal_ = signal; }
+  void trace_on(TimedSignal* signal) { signal_ = signal; }
 
  protected:
   TimedSignal* signal_ = nullptr;  ///< credits in use; null where not traced
@@ -67,7 +67,7 @@ class CreditLink : public sc_core::sc_prim_channel,
   struct Options {
     int capacity = 1;
     int latency = 1;
-    std::optional<Link> statistics;   ///< where its cycles are counted
+    std::optional<Link> statistics;    ///< where its cycles are counted
     std::optional<StallPoint> stalls;  ///< where its packets are held back
   };
 
@@ -155,7 +155,8 @@ class CreditLink : public sc_core::sc_prim_channel,
       return text + "the head may be taken from cycle " + std::to_string(queue_.front().visible) + " on";
     }
     if (held != 0) {
-      return text + "the head is under way since cycle " + std::to_string(begun_.empty() ? 0 : begun_.front());
+      return text + "the head is under way since cycle " +
+             std::to_string(begun_.empty() ? 0 : begun_.front());
     }
     return text + "empty";
   }

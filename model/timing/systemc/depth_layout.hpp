@@ -33,7 +33,8 @@ class DepthLayout {
 
   /// The bytes of a line, and back.
   void pack(std::uint32_t line, std::span<const std::uint32_t> codes, std::vector<std::uint8_t>& bytes) const;
-  void unpack(std::uint32_t line, std::span<const std::uint8_t> bytes, std::vector<std::uint32_t>& codes) const;
+  void unpack(std::uint32_t line, std::span<const std::uint8_t> bytes,
+              std::vector<std::uint32_t>& codes) const;
 
  private:
   struct Place {

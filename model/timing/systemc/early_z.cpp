@@ -94,8 +94,8 @@ void EarlyZ::look_up(Cycle at) {
   PendingToken& token = looked_up_;
   const Coverage& coverage = token.burst.burst.coverage;
   const int parts = run_.config.z_parts;
-  token.touched = with_tile_size(
-      run_.config.tile_size, [&](auto size) { return parts_of_mask<size()>(coverage.mask, parts); });
+  token.touched = with_tile_size(run_.config.tile_size,
+                                 [&](auto size) { return parts_of_mask<size()>(coverage.mask, parts); });
   for (int part = 0; part < parts; ++part) {
     if ((token.touched >> part & 1) == 0) {
       continue;
@@ -116,30 +116,24 @@ void EarlyZ::look_up(Cycle at) {
     if ((token.missed >> part & 1) == 0) {
       continue;
     }
-    // Whether a line that was replaced by a burst before has been written, and so is stored in memory, is
-    // known when that burst has been tested.
-    const std::uint32_t line = line_of(token, part);
-    Cycle known = 0;
-    lookup_meter_.waits_for(stall::kLookupWriteBack);
-    while (exits_[line].looked_up) {
-      wait(exit_changed_);
-      known = run_.clock.now() + 1;
-    }
-    if (lines_.cleared(line)) {
-      lookup_meter_.stalled(stall::kLookupWriteBack, known);
-      next = std::max(next, known);
-    } else {
-      token.fetched |= static_cast<std::uint8_t>(1u << part);
-      next = request(line, next) + 1;
-    }
+    next = resolve(part, next) + 1;
   }
   next_lookup_ = std::max(next_lookup_, next);
 }
 
-/// Asks memory for a line, in cycle `earliest` or later. Returns the cycle.
-Cycle EarlyZ::request(std::uint32_t line, Cycle earliest) {
+/// A missing part, in cycle `earliest` or later: asks memory for it, unless it is only marked cleared.
+/// Returns the cycle.
+Cycle EarlyZ::resolve(int part, Cycle earliest) {
+  const std::uint32_t line = line_of(looked_up_, part);
+  // Where an earlier burst replaced the line, only the test of that burst can say whether it was dirty, and
+  // so is stored in memory.
+  lookup_meter_.waits_for(stall::kLookupWriteBack);
+  while (exits_[line].looked_up) {
+    wait(exit_changed_);
+  }
+  const bool fetch = !lines_.cleared(line);
   lookup_meter_.waits_for(stall::kLookupFillBuffers);
-  const Cycle buffer = fills_.credit(1);
+  const Cycle buffer = fetch ? fills_.credit(1) : 0;
   lookup_meter_.stalled(stall::kLookupFillBuffers, buffer);
   lookup_meter_.waits_for(stall::kLookupWriteBack);
   while (exits_[line].write > writes_done_) {
@@ -151,6 +145,14 @@ Cycle EarlyZ::request(std::uint32_t line, Cycle earliest) {
   run_.clock.wait_until(at);
 
   lookup_meter_.stalled(stall::kLookupRequest, at + 1);
+  const Cycle there = fetch ? request(line) : at;
+  looked_up_.fetched |= static_cast<std::uint8_t>((fetch ? 1u : 0u) << part);
+  looked_up_.there = std::max(looked_up_.there, there + 1);
+  return at;
+}
+
+/// Asks memory for a line, in this cycle. Returns the one in which the last of it comes.
+Cycle EarlyZ::request(std::uint32_t line) {
   fills_.use_credit();
   read_bytes_.resize(layout_.line_bytes(line));
   sc_core::sc_time delay;
@@ -160,8 +162,7 @@ Cycle EarlyZ::request(std::uint32_t line, Cycle earliest) {
   FillToken fill{.work = looked_up_.work, .codes = {}};
   layout_.unpack(line, read_bytes_, fill.codes);
   fills_.put(std::move(fill), filled);
-  looked_up_.filled = filled + 1;
-  return at;
+  return filled;
 }
 
 // Test.
@@ -174,13 +175,13 @@ void EarlyZ::test_bursts() {
       const PendingToken& head = pending_.front();
       test_meter_.work_on(head.work);
       test_meter_.stalled(stall::kNoInput, visible);
-      test_meter_.stalled(stall::kTestFill, head.filled);
+      test_meter_.stalled(stall::kTestFill, head.there);
       const int dirty = replace_lines(head);
       test_meter_.waits_for(stall::kTestWriteBuffer);
       const Cycle slots = dirty != 0 ? writes_.credit(dirty) : 0;
       test_meter_.stalled(stall::kTestWriteBuffer, slots);
       test_meter_.waits_for(stall::kTestNoCredit);
-      const Cycle at = std::max({visible, next_test_, head.filled, slots, out->credit()});
+      const Cycle at = std::max({visible, next_test_, head.there, slots, out->credit()});
       test_meter_.stalled(stall::kTestNoCredit, at);
       run_.clock.wait_until(at);
 
@@ -268,7 +269,8 @@ void EarlyZ::test(PendingToken& token, TestedToken& tested) {
   const auto for_each_touched = [&](auto&& visit) {
     for (std::size_t part = 0; part < static_cast<std::size_t>(parts); ++part) {
       if ((token.touched >> part & 1) != 0) {
-        visit(part, codes_[token.slot[part]].begin(), stored.begin() + static_cast<std::ptrdiff_t>(part * samples));
+        visit(part, codes_[token.slot[part]].begin(),
+              stored.begin() + static_cast<std::ptrdiff_t>(part * samples));
       }
     }
   };
@@ -343,10 +345,14 @@ Cycle EarlyZ::flush(Cycle begin) {
     run_.result.flushed_bytes += bytes;
   });
   const Cycle scanned = next + (static_cast<std::uint32_t>(run_.config.z_lines) - next_slot);
+  return std::max(scanned, wait_until_written()) - 1;
+}
+
+Cycle EarlyZ::wait_until_written() {
   while (writes_done_ != writes_sent_) {
     wait(exit_changed_);
   }
-  return std::max(scanned, next_write_) - 1;
+  return next_write_;
 }
 
 void EarlyZ::clear(std::uint32_t surface, std::uint32_t code) {
@@ -378,7 +384,8 @@ void EarlyZ::access(tlm::tlm_command command, std::uint32_t line, std::vector<st
   }
 }
 
-void EarlyZ::access_in_no_time(tlm::tlm_command command, std::uint32_t line, std::vector<std::uint8_t>& bytes) {
+void EarlyZ::access_in_no_time(tlm::tlm_command command, std::uint32_t line,
+                               std::vector<std::uint8_t>& bytes) {
   tlm::tlm_generic_payload payload;
   payload.set_command(command);
   payload.set_address(layout_.address(line));
@@ -390,7 +397,8 @@ void EarlyZ::access_in_no_time(tlm::tlm_command command, std::uint32_t line, std
   }
 }
 
-void EarlyZ::count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t line, int width, DrawWork* work) {
+void EarlyZ::count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t line, int width,
+                            DrawWork* work) {
   const auto cycles =
       static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(layout_.line_bytes(line)), width));
   run_.cycles.stats.*channel += cycles;

@@ -19,6 +19,9 @@ class DepthControl : virtual public sc_core::sc_interface {
  public:
   /// A fast clear: all lines of the surface hold `code`.
   virtual void clear(std::uint32_t surface, std::uint32_t code) = 0;
+  /// Suspends the calling thread until all that has left the cache is in memory. Returns the cycle after the
+  /// last write.
+  virtual Cycle wait_until_written() = 0;
   /// Writes back what is dirty, beginning in cycle `begin`; suspends the calling thread until all is in
   /// memory. Returns the last cycle in which a line was looked at or written.
   virtual Cycle flush(Cycle begin) = 0;
@@ -37,8 +40,10 @@ class EarlyZ : public sc_core::sc_module, public DepthControl {
   /// Fills the surfaces in memory with what they hold before the first command, in no time.
   void begin_frame();
   void clear(std::uint32_t surface, std::uint32_t code) override;
+  Cycle wait_until_written() override;
   Cycle flush(Cycle begin) override;
-  /// Reads the image of a surface from memory, in no time. Lines that are only marked cleared have their value.
+  /// Reads the image of a surface from memory, in no time. Lines that are only marked cleared have their
+  /// value.
   void read_surface(std::uint32_t surface, TiledImage<std::uint32_t>& codes);
 
   [[nodiscard]] StageMeter& lookup_meter() { return lookup_meter_; }
@@ -58,7 +63,8 @@ class EarlyZ : public sc_core::sc_module, public DepthControl {
   // Lookup.
   void look_up_bursts();
   void look_up(Cycle at);
-  Cycle request(std::uint32_t line, Cycle earliest);
+  Cycle resolve(int part, Cycle earliest);
+  Cycle request(std::uint32_t line);
   // Test.
   void test_bursts();
   int replace_lines(const PendingToken& token);

@@ -7,6 +7,12 @@
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace::systemc {
+namespace {
+
+/// Of every traced value: a link has at most 64 credits.
+constexpr int kTraceBits = 8;
+
+}  // namespace
 
 std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
   const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_size, false);
@@ -80,19 +86,19 @@ void RasterPipeline::bind_frame(const Frame& frame, bool keep_visible, PacketObs
   bound_ = true;
 }
 
-void RasterPipeline::trace(sc_core::sc_trace_file* file) {
+void RasterPipeline::trace_to(sc_core::sc_trace_file* file) {
   const auto add = [&](const std::string& name) {
     signals_.push_back(std::make_unique<TimedSignal>(sc_core::sc_gen_unique_name("traced"), run_.clock));
-    sc_core::sc_trace(file, signals_.back()->value(), name);
+    sc_core::sc_trace(file, signals_.back()->value(), name, kTraceBits);
     return signals_.back().get();
   };
   for (std::size_t i = 0; i < kLinks; ++i) {
-    links_[i]->trace(add("links." + std::string(kLinkName[i])));
+    links_[i]->trace_on(add("links." + std::string(kLinkName[i])));
   }
-  early_z_.fill_buffers().trace(add("links.fill_buffers"));
-  early_z_.write_buffer().trace(add("links.write_buffer"));
+  early_z_.fill_buffers().trace_on(add("links.fill_buffers"));
+  early_z_.write_buffer().trace_on(add("links.write_buffer"));
   for (StageMeter* const meter : meters_) {
-    meter->trace(add("stages." + meter->name()));
+    meter->trace_on(add("stages." + meter->name()));
   }
 }
 

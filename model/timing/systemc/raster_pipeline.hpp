@@ -49,21 +49,21 @@ inline constexpr std::uint64_t kCyclesHigh = 0x18;
 
 class RasterPipeline : public sc_core::sc_module, private FrameControl {
  public:
-  /// `config` need not be valid as a whole: one that cannot work is found by check(). Depth lies in memory from
-  /// address `base` on; see DepthLayout.
+  /// `config` need not be valid as a whole: one that cannot work is found by check(). Depth lies in memory
+  /// from address `base` on; see DepthLayout.
   RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base = 0);
 
   tlm_utils::simple_target_socket<RasterPipeline> commands;
   tlm::tlm_initiator_socket<> memory;
 
-  /// The frame whose commands are executed next, from depth 1 on all surfaces. It, `observer` and `times` must
-  /// live until it has ended; the last two may be null.
+  /// The frame whose commands are executed next, from depth 1 on all surfaces. It, `observer` and `times`
+  /// must live until it has ended; the last two may be null.
   void bind_frame(const Frame& frame, bool keep_visible = false, PacketObserver* observer = nullptr,
                   const StallPlan& stalls = {}, PacketTimes* times = nullptr);
 
   /// Records the credits in use of every link, and the state of every stage: 1 busy, 2 and up its stall
   /// reasons in order. Before the simulation starts.
-  void trace(sc_core::sc_trace_file* file);
+  void trace_to(sc_core::sc_trace_file* file);
 
   /// For when the kernel has come to rest: throws what a process threw, or DeadlockError where commands are
   /// still at work.

@@ -83,8 +83,8 @@ struct RunState {
     }
   }
 
-  /// The body of a process. The kernel would turn an exception into a report of its own; this keeps it, for
-  /// RasterPipeline::check, and ends the simulation.
+  /// The body of a process. The kernel would turn an exception into a report of its own; this keeps it for
+  /// RasterPipeline::check. The process ends, and so the pipeline comes to rest.
   template <class Body>
   void guard(Body&& body) {
     try {
@@ -93,7 +93,6 @@ struct RunState {
       throw;
     } catch (...) {
       error = std::current_exception();
-      sc_core::sc_stop();
     }
   }
 };

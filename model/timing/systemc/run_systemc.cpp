@@ -1,6 +1,9 @@
 #include "halfspace/timing/systemc/run_systemc.hpp"
 
+#include <sysc/tracing/sc_tracing_ids.h>
 #include <tlm_utils/simple_initiator_socket.h>
+
+#include <optional>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/systemc/raster_pipeline.hpp"
@@ -53,11 +56,15 @@ struct Platform {
 
 class TraceFile {
  public:
-  /// The kernel adds the extension.
+  /// The kernel adds the extension, and would tell of every file.
   explicit TraceFile(std::filesystem::path path)
       : file_(sc_core::sc_create_vcd_trace_file(
             (path.extension() == ".vcd" ? path.replace_extension() : path).c_str())) {
+    using sc_core::sc_report_handler;
+    const sc_core::sc_actions before = sc_report_handler::set_actions(
+        sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
     file_->set_time_unit(1, sc_core::SC_NS);
+    sc_report_handler::set_actions(sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_INFO, before);
   }
   ~TraceFile() { sc_core::sc_close_vcd_trace_file(file_); }
   TraceFile(const TraceFile&) = delete;
@@ -79,7 +86,7 @@ FrameResult run_systemc(const Frame& frame, const Config& config, bool keep_visi
   platform.pipeline.bind_frame(frame, keep_visible, observer, run.stalls, run.times);
   if (!options.vcd.empty()) {
     trace.emplace(options.vcd);
-    platform.pipeline.trace(trace->get());
+    platform.pipeline.trace_to(trace->get());
   }
   sc_core::sc_start();
   platform.pipeline.check();

@@ -26,11 +26,11 @@ void Setup::begin_frame() {
   divider_free_ = 0;
 }
 
-Cycle Setup::take(QueuedTriangle triangle, Cycle arrive) {
+Cycle Setup::take(const QueuedTriangle& triangle, Cycle arrive) {
   const Cycle at = std::max({arrive, next_cull_, queue_.credit(1)});
   run_.clock.wait_until(at);
   queue_.use_credit();
-  queue_.put(std::move(triangle), at);
+  queue_.put(triangle, at);
   next_cull_ = at + 1;
   return at;
 }

@@ -12,9 +12,9 @@ namespace halfspace::systemc {
 /// What the source sees of setup.
 class TriangleInput : virtual public sc_core::sc_interface {
  public:
-  /// The cull stage takes a triangle that is there from cycle `arrive` on; suspends the calling thread until it
-  /// does. Returns the cycle.
-  virtual Cycle take(QueuedTriangle triangle, Cycle arrive) = 0;
+  /// The cull stage takes a triangle that is there from cycle `arrive` on; suspends the calling thread until
+  /// it does. Returns the cycle.
+  virtual Cycle take(const QueuedTriangle& triangle, Cycle arrive) = 0;
 };
 
 class Setup : public sc_core::sc_module, public TriangleInput {
@@ -24,7 +24,7 @@ class Setup : public sc_core::sc_module, public TriangleInput {
 
   sc_core::sc_port<CreditOut<TriangleToken>> out;
 
-  Cycle take(QueuedTriangle triangle, Cycle arrive) override;
+  Cycle take(const QueuedTriangle& triangle, Cycle arrive) override;
   void begin_frame();
   [[nodiscard]] StageMeter& meter() { return meter_; }
   [[nodiscard]] CreditLinkBase& queue() { return queue_; }

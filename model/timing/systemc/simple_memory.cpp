@@ -54,17 +54,17 @@ void SimpleMemory::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time
   if (!check(payload)) {
     return;
   }
-  const sc_core::sc_time called = sc_core::sc_time_stamp();
+  const sc_core::sc_time arrives = sc_core::sc_time_stamp() + delay;
   if (payload.is_read()) {
     const sc_core::sc_time end =
-        std::max(called + delay + latency_, read_free_) + transfer_time(payload, read_bytes_);
+        std::max(arrives + latency_, read_free_) + transfer_time(payload, read_bytes_);
     read_free_ = end;
     access(payload);
-    delay = end - cycle_ - called;
+    delay = end - cycle_ - sc_core::sc_time_stamp();
   } else if (payload.is_write()) {
-    const sc_core::sc_time end = std::max(called + delay, write_free_) + transfer_time(payload, write_bytes_);
+    const sc_core::sc_time end = std::max(arrives, write_free_) + transfer_time(payload, write_bytes_);
     write_free_ = end;
-    const sc_core::sc_time left = end - cycle_ - called;
+    const sc_core::sc_time left = end - cycle_ - sc_core::sc_time_stamp();
     if (left != sc_core::SC_ZERO_TIME) {
       wait(left);
     }

@@ -8,12 +8,15 @@ class sc_simcontext;
 namespace halfspace::systemc {
 
 /// While it lives, modules are made in and simulated by a fresh kernel; then the one before is back. Needed
-/// because IEEE 1666 has no way back from a simulation to elaboration, and a process may run many frames.
+/// because IEEE 1666 has no way back from a simulation to elaboration, and a program may run many frames.
 ///
-/// The kernel's whole state hangs on two exported pointers, which SystemC's own documentation of 2.3 names
-/// for this purpose; replacing them was tried against a child process a run: as reliable, memory does not grow
-/// over thousands of runs, 0.2 ms a run, and results need not cross a pipe. All modules of the context must be
-/// gone before it is.
+/// In Accellera's library all state of the kernel hangs on two pointers that its headers export; the standard
+/// does not know them, so with another library this class is what has to change. The ways within the standard
+/// are worse: a child process a run has to send its results and observer calls through a pipe, and pipelines
+/// elaborated in advance must know all configurations at the start. Thousands of runs take 0.2 ms each beyond
+/// the simulation, and no memory stays behind.
+///
+/// All modules of the context must be gone before it is.
 class SimulationContext {
  public:
   SimulationContext();

@@ -83,10 +83,17 @@ void Source::begin_frame() {
   }
 }
 
-void Source::end_frame() {
+/// Waits for the first cycle in which everything has left the pipe, and returns it.
+Cycle Source::drain() {
   run_.in_pipe.wait_until_empty();
-  const Cycle begin = std::max(control_.idle_from(), next_arrival_);
-  run_.clock.wait_until(begin);
+  const Cycle written = depth->wait_until_written();
+  const Cycle from = std::max({control_.idle_from(), written, next_arrival_});
+  run_.clock.wait_until(from);
+  return from;
+}
+
+void Source::end_frame() {
+  const Cycle begin = drain();
   const Cycle last = depth->flush(begin);
   run_.clock.wait_until(last + 1);
   control_.end_frame(last + 1);
@@ -167,9 +174,7 @@ void Source::clear(const Command& command) {
     }
     return;
   }
-  run_.in_pipe.wait_until_empty();
-  const Cycle begin = std::max(control_.idle_from(), next_arrival_);
-  run_.clock.wait_until(begin);
+  const Cycle begin = drain();
   depth->clear(target.depth_surface, code);
   if (!surface.visible.empty()) {
     surface.visible.fill(rect, kNothingVisible);

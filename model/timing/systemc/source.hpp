@@ -52,6 +52,7 @@ class Source : public sc_core::sc_module {
   void clear(const Command& command);
   void draw_clear(const PixelRect& rect, std::uint32_t code, std::uint32_t surface);
   void give(DrawWork& work, const ScreenTriangle& triangle);
+  Cycle drain();
   void end_frame();
 
   RunState& run_;

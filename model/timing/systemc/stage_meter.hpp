@@ -25,11 +25,13 @@ class StageMeter {
 
   /// The cycles up to but without `end`.
   void stalled(std::size_t reason, Cycle end) {
-    count(end, [&](StageCycles& cycles) -> std::uint64_t& { return cycles.stall[reason]; },
-          kFirstReason + static_cast<int>(reason));
+    count(
+        end, [&](StageCycles& cycles) -> std::uint64_t& { return cycles.stall[reason]; },
+        kFirstReason + static_cast<int>(reason));
   }
   void busy(Cycle end) {
-    count(end, [](StageCycles& cycles) -> std::uint64_t& { return cycles.busy; }, kBusy);
+    count(
+        end, [](StageCycles& cycles) -> std::uint64_t& { return cycles.busy; }, kBusy);
   }
 
   /// The rest of the frame.
@@ -56,7 +58,7 @@ class StageMeter {
   [[nodiscard]] std::string name() const {
     return std::string(kStageInfo[static_cast<std::size_t>(stage_)].name);
   }
-  void trace(TimedSignal* signal) { signal_ = signal; }
+  void trace_on(TimedSignal* signal) { signal_ = signal; }
 
   // Values in a trace.
   static constexpr int kBusy = 1;

@@ -1,4 +1,5 @@
-/// What the links carry. The tile is the smallest unit of transport: a burst is one token, whatever its quads.
+/// What the links carry. The tile is the smallest unit of transport: a burst is one token, whatever its
+/// quads.
 #pragma once
 
 #include <array>
@@ -62,7 +63,7 @@ struct PendingToken {
   std::uint8_t missed = 0;   ///< bit i: it was not in the cache
   std::uint8_t fetched = 0;  ///< bit i: and was asked for
   std::array<std::uint32_t, kMaxZParts> slot{};
-  Cycle filled = 0;  ///< first cycle in which all that was asked for is there
+  Cycle there = 0;  ///< first cycle in which all missing parts are filled, or known to be cleared
 };
 
 /// In a fill buffer.

@@ -1,0 +1,189 @@
+/// Random machines, frames and stalls for tests of time: small enough to run by the thousand, and mostly with
+/// FIFOs so short and caches so small that everything waits for everything.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string>
+
+#include "../frames.hpp"
+#include "../property/random.hpp"
+#include "halfspace/config/config.hpp"
+#include "halfspace/timing/stall_plan.hpp"
+
+namespace halfspace::testing {
+
+template <class Value>
+Value pick(Random& random, std::initializer_list<Value> values) {
+  return values.begin()[random.between(0, static_cast<std::int64_t>(values.size()) - 1)];
+}
+
+/// `least` to `most`, two times of three at the low end.
+inline int mostly_small(Random& random, int least, int most) {
+  const int high = random.between(0, 2) != 0 ? std::min(least + 3, most) : most;
+  return static_cast<int>(random.between(least, high));
+}
+
+/// A valid configuration; every key that changes time, and those that change packets, are random.
+inline Config random_config(Random& random) {
+  Config config;
+  config.sub_pixel_bits = static_cast<int>(random.between(4, 8));
+  config.tile_size = pick(random, {4, 8, 16});
+  do {
+    config.block_size = pick(random, {8, 16, 32, 64});
+  } while (config.block_size <= config.tile_size);
+  config.block_level = random.between(0, 3) != 0;
+  config.trivial_reject = random.between(0, 3) != 0;
+  config.trivial_accept = random.between(0, 3) != 0;
+  config.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
+  config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
+
+  config.setup_queue = mostly_small(random, 2, 64);
+  config.setup_interval = pick(random, {1, 2, 4, 8, 16});
+  config.setup_fifo = mostly_small(random, 2, 64);
+  config.walker_step_interval = mostly_small(random, 1, 8);
+  config.walker_fifo = mostly_small(random, 2, 64);
+  config.edge_pipe_stages = static_cast<int>(random.between(1, 3));
+  config.edge_fifo = mostly_small(random, 2, 32);
+  do {
+    config.quad_width = pick(random, {1, 2, 4, 8, 16});
+  } while (config.quad_width > config.tile_size * config.tile_size / 4);
+  config.quad_fifo = mostly_small(random, 2, 64);
+  do {
+    config.early_z_width = pick(random, {1, 2, 4, 8, 16});
+  } while (config.early_z_width > config.quad_width);
+  config.early_z_pending = mostly_small(random, 2, 64);
+  config.early_z_fifo = mostly_small(random, 2, 64);
+  do {
+    config.z_parts = pick(random, {1, 2, 4});
+  } while (config.z_parts > config.tile_size / 2);
+  config.z_ways = pick(random, {1, 1, 2, 4, 8, 16});
+  do {
+    config.z_lines = pick(random, {1, 2, 4, 4, 8, 8, 16, 32, 64, 128, 512});
+  } while (config.z_lines < config.z_parts * config.z_ways);
+  config.z_misses_in_flight = mostly_small(random, config.z_parts, 64);
+  config.z_write_buffers = mostly_small(random, config.z_parts, 64);
+  config.fast_clear = random.between(0, 2) != 0;
+  config.z_clear_tiles = pick(random, {1, 2, 4, 64, 1024});
+  config.memory_latency = pick(random, {1, 2, 5, 20, 50, 100, 400, 5000});
+  config.memory_read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
+  config.memory_write_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
+  return config;
+}
+
+/// The keys in which `config` is not the default, one a line.
+inline std::string difference_from_default(const Config& config) {
+  const std::vector<ConfigKey> ours = config_keys(config);
+  const std::vector<ConfigKey> defaults = config_keys({});
+  std::string text;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    if (ours[i].value != defaults[i].value) {
+      text += ours[i].name + " = " + ours[i].value + "\n";
+    }
+  }
+  return text;
+}
+
+/// Vertices of `count` triangles in and around a square of `size` pixels, half of them small.
+inline std::vector<glm::dvec3> random_triangles(Random& random, int size, int count) {
+  const auto point = [&](int low, int high) {
+    return glm::dvec3{static_cast<double>(random.between(low * 256, high * 256)) / 256,
+                      static_cast<double>(random.between(low * 256, high * 256)) / 256,
+                      static_cast<double>(random.between(0, 1 << 20)) / (1 << 20)};
+  };
+  std::vector<glm::dvec3> window;
+  for (int n = 0; n < count; ++n) {
+    const bool small = random.between(0, 1) == 0;
+    const glm::dvec3 centre = point(0, size);
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3 v = point(small ? -6 : -size, small ? 6 : size);
+      window.emplace_back(centre.x + v.x, centre.y + v.y, v.z);
+    }
+  }
+  return window;
+}
+
+/// Anything from the whole target to nothing of it.
+inline Scissor random_scissor(Random& random, int size) {
+  return {.x = static_cast<std::int32_t>(random.between(-9, size)),
+          .y = static_cast<std::int32_t>(random.between(-9, size)),
+          .width = static_cast<std::int32_t>(random.between(0, size + 16)),
+          .height = static_cast<std::int32_t>(random.between(0, size + 16))};
+}
+
+/// A target of 8 to 64 pixels, sometimes one or two more of which one has no depth, 1 to 4 draws in any state
+/// and clears of all kinds between them.
+inline Frame random_frame(Random& random) {
+  const int size = pick(random, {8, 16, 32, 64});
+  const auto format = [&] {
+    return pick(random, {DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32});
+  };
+  FrameBuilder builder(static_cast<std::uint32_t>(size), format());
+  if (random.between(0, 3) == 0) {
+    builder.frame.commands.clear();
+  }
+  std::uint32_t targets = 1;
+  if (random.between(0, 2) == 0) {
+    Target second = builder.frame.targets[0];
+    second.width = second.height = static_cast<std::uint32_t>(pick(random, {8, 16, 32}));
+    second.depth_format = format();
+    second.depth_surface = 1;
+    second.presented = false;
+    builder.frame.targets.push_back(second);
+    ++targets;
+  }
+  if (random.between(0, 5) == 0) {
+    Target bare = builder.frame.targets[0];
+    bare.depth_format = DepthFormat::kNone;
+    bare.depth_surface = kNoSurface;
+    bare.presented = false;
+    builder.frame.targets.push_back(bare);
+    ++targets;
+  }
+  const auto any_target = [&] { return static_cast<std::uint32_t>(random.between(0, targets - 1)); };
+  const auto draws = random.between(1, 4);
+  for (int n = 0; n < draws; ++n) {
+    for (auto clears = pick(random, {0, 0, 1, 2}); clears > 0; --clears) {
+      Command& clear = builder.clear(static_cast<float>(random.between(0, 8)) / 8);
+      clear.target = any_target();
+      if (random.between(0, 1) == 0) {
+        clear.scissor = random_scissor(random, size);
+      }
+    }
+    Command& draw = builder.draw(
+        random_triangles(random, size, static_cast<int>(random.between(0, 3) * random.between(1, 8))));
+    draw.target = any_target();
+    const bool has_depth = builder.frame.targets[draw.target].depth_surface != kNoSurface;
+    const bool test = has_depth && random.between(0, 7) != 0;
+    draw.depth_func =
+        random.between(0, 1) == 0 ? DepthFunc::kLess : static_cast<DepthFunc>(random.between(0, 7));
+    draw.flags = bits({Flag::kColorWrite}) | (test ? bits({Flag::kDepthTest}) : 0);
+    for (const Flag flag : {Flag::kDepthWrite, Flag::kFrontPositiveArea, Flag::kBottomLeftRule,
+                            Flag::kShaderDiscards, Flag::kEarlyTestsForced}) {
+      const bool wanted = random.between(0, 3) != 0 && (flag != Flag::kDepthWrite || test);
+      draw.flags |= wanted ? bits({flag}) : 0;
+    }
+    draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kCullBack}) : 0;
+    draw.flags |= random.between(0, 31) == 0 ? bits({Flag::kNotFilled}) : 0;
+    if (random.between(0, 3) == 0) {
+      draw.scissor = random_scissor(random, size);
+    }
+  }
+  return builder.frame;
+}
+
+/// None, or some at any of the points.
+inline StallPlan random_stalls(Random& random) {
+  StallPlan plan;
+  plan.seed = static_cast<std::uint64_t>(random.between(0, 1 << 30));
+  if (random.between(0, 2) == 0) {
+    return plan;
+  }
+  for (StallPlan::Rate& rate : plan.rate) {
+    rate = {.percent = pick(random, {0u, 5u, 30u, 100u}), .max_cycles = pick(random, {1u, 3u, 20u, 200u})};
+  }
+  return plan;
+}
+
+}  // namespace halfspace::testing

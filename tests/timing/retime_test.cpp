@@ -1,0 +1,240 @@
+// Re-timing a record against full runs, singly and in batches; its file; and what it refuses.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/byte_source.hpp"
+#include "halfspace/scene/compression.hpp"
+#include "halfspace/scene/ptf.hpp"
+#include "halfspace/timing/record/frame_record_file.hpp"
+#include "halfspace/timing/record/retime.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "random_machine.hpp"
+
+using namespace halfspace;
+using namespace halfspace::testing;
+
+namespace {
+
+RetimedFrame full_run(const Frame& frame, const Config& config) {
+  TimedRun run;
+  run_recurrence(frame, config, false, nullptr, run);
+  RetimedFrame result{.cycles = run.cycles.cycles, .draw_end = {}};
+  for (const DrawCycles& draw : run.cycles.draws) {
+    result.draw_end.push_back(draw.end);
+  }
+  return result;
+}
+
+/// A random machine for the packets of `recorded`.
+Config random_timing(Random& random, const Config& recorded) {
+  while (true) {
+    Config config = random_config(random);
+    config.sub_pixel_bits = recorded.sub_pixel_bits;
+    config.tile_size = recorded.tile_size;
+    config.block_size = recorded.block_size;
+    config.block_level = recorded.block_level;
+    config.trivial_reject = recorded.trivial_reject;
+    config.trivial_accept = recorded.trivial_accept;
+    config.interpolator = recorded.interpolator;
+    config.late_z = recorded.late_z;
+    config.fast_clear = recorded.fast_clear;
+    try {
+      validate(config);
+      return config;
+    } catch (const InputError&) {
+      // widths and parts of another tile size: draw again
+    }
+  }
+}
+
+struct TemporaryFile {
+  TemporaryFile()
+      : path(std::filesystem::temp_directory_path() / ("halfspace_" + std::to_string(getpid()) + ".rec")) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() { std::filesystem::remove(path); }
+  std::filesystem::path path;
+};
+
+}  // namespace
+
+TEST_CASE("re-timing equals a full run on random machines, one by one and in a batch", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 60; ++run) {
+    CAPTURE(seed(), run);
+    const Config recorded = random_config(random);
+    const Frame frame = random_frame(random);
+    CAPTURE(difference_from_default(recorded));
+    Retimer retimer(record_frame(frame, recorded, nullptr));
+    std::vector<Config> machines;
+    for (int i = 0; i < 40; ++i) {
+      machines.push_back(random_timing(random, recorded));
+      if (i > 20) {  // so that some share a pass
+        machines.back().z_lines = recorded.z_lines;
+        machines.back().z_ways = recorded.z_ways;
+        machines.back().z_parts = recorded.z_parts;
+        machines.back().z_misses_in_flight = std::max(machines.back().z_misses_in_flight, recorded.z_parts);
+        machines.back().z_write_buffers = std::max(machines.back().z_write_buffers, recorded.z_parts);
+      }
+    }
+    const std::vector<RetimedFrame> batch = retimer.retime(machines);
+    for (std::size_t i = 0; i < machines.size(); ++i) {
+      CAPTURE(i, difference_from_default(machines[i]));
+      const RetimedFrame full = full_run(frame, machines[i]);
+      REQUIRE(retimer.retime(machines[i]) == full);
+      REQUIRE(batch[i] == full);
+    }
+  }
+}
+
+TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds", "[timing]") {
+  Random random(seed());
+  Config config;
+  config.memory_latency = 65535;
+  config.z_misses_in_flight = 1;
+  config.memory_read_bytes = 1;
+  config.memory_write_bytes = 1;
+  config.z_lines = 1;
+  config.z_ways = 1;
+  for (int run = 0; run < 20; ++run) {
+    const Frame frame = random_frame(random);
+    const FrameRecord record = record_frame(frame, config, nullptr);
+    const ZTrace trace = trace_z_cache(record, {.lines = 1, .ways = 1, .parts = 1});
+    const std::uint64_t bound = detail::longest_time(record_work(record, trace), config);
+    CHECK(full_run(frame, config).cycles <= bound);
+  }
+  // 2^16 fetches of 2^16 cycles each: only the bound is looked at
+  FrameWork work;
+  work.draws.emplace_back();
+  work.draws[0].fetched[8] = 1 << 16;
+  CHECK(detail::longest_time(work, config) > (std::uint64_t{1} << 32));
+}
+
+TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]") {
+  // 70,000 bursts on a line that is never there, 65,535 cycles each: more than 2^32
+  FrameRecord record;
+  record.config.z_lines = 1;
+  record.config.z_ways = 1;
+  record.config.memory_latency = 65535;
+  record.config.z_misses_in_flight = 1;
+  record.surfaces.push_back({.tiles_x = 2, .tiles = 2, .sample_bytes = 4});
+  record.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
+  record.triangles.push_back({.jobs = 70000});
+  for (std::uint32_t i = 0; i < 70000; ++i) {
+    record.jobs.emplace_back(1u, 4);
+    record.accesses.emplace_back(i % 2, 0u, std::uint8_t{15}, std::uint8_t{0});
+  }
+  Retimer retimer(record);
+  const std::vector<Config> machines{record.config, record.config};
+  const std::vector<RetimedFrame> batch = retimer.retime(machines);
+  // each line is asked for when the one before has been used: latency, 4 cycles of transfer, and the swap
+  CHECK(batch[0].cycles > std::uint64_t{70000} * (65535 + 4));
+  CHECK(batch[0].cycles < std::uint64_t{70000} * (65535 + 6) + 1000);
+  CHECK(batch[0] == retimer.retime(record.config));
+  CHECK(batch[1] == batch[0]);
+}
+
+TEST_CASE("a key that changes packets is refused by name", "[timing]") {
+  Random random(seed());
+  Retimer retimer(record_frame(random_frame(random), Config{}, nullptr));
+  const std::pair<const char*, const char*> changes[] = {
+      {"walker.tile_size", "16"},         {"raster.sub_pixel_bits", "7"},
+      {"walker.block_size", "16"},        {"walker.block_level", "false"},
+      {"walker.trivial_reject", "false"}, {"walker.trivial_accept", "false"},
+      {"depth.interpolator", "plane"},    {"late_z", "no_write"},
+      {"z_cache.fast_clear", "false"}};
+  for (const auto& [key, value] : changes) {
+    Config config;
+    set_config(config, key, value);
+    CHECK_THROWS_WITH(retimer.retime(config), Catch::Contains("'" + std::string(key) + "' is " + value) &&
+                                                  Catch::Contains("a new record"));
+    CHECK_THROWS_AS(retimer.retime(std::vector<Config>{Config{}, config}), InputError);
+    CHECK_THROWS_AS(retimer.analytic(config), InputError);
+  }
+}
+
+TEST_CASE("the analytic fidelity says the same of a frame and of its record", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 40; ++run) {
+    CAPTURE(seed(), run);
+    const Config config = random_config(random);
+    const Frame frame = random_frame(random);
+    AnalyticFrame direct;
+    run_analytic(frame, config, false, nullptr, direct);
+    const AnalyticFrame recorded = Retimer(record_frame(frame, config, nullptr)).analytic(config);
+    REQUIRE(recorded.cycles == direct.cycles);
+    REQUIRE(recorded.draws.size() == direct.draws.size());
+    for (std::size_t i = 0; i < direct.draws.size(); ++i) {
+      REQUIRE(recorded.draws[i].cycles == direct.draws[i].cycles);
+      REQUIRE(recorded.draws[i].bound == direct.draws[i].bound);
+    }
+  }
+}
+
+TEST_CASE("a draw alone never beats its analytic bound", "[timing]") {
+  // the busiest unit needs its cycles whatever the others do
+  Random random(seed());
+  for (int run = 0; run < 60; ++run) {
+    CAPTURE(seed(), run);
+    Config config = random_config(random);
+    const Frame frame = random_frame(random);
+    AnalyticFrame estimate;
+    run_analytic(frame, config, false, nullptr, estimate);
+    const std::uint64_t cycles = full_run(frame, config).cycles;
+    for (const AnalyticDraw& draw : estimate.draws) {
+      if (draw.bound != Bound::kMemoryLatency) {  // an average over lines of different sizes
+        CHECK(draw.cycles <= cycles);
+      }
+    }
+  }
+}
+
+TEST_CASE("a record comes back from its file", "[timing]") {
+  Random random(seed());
+  const TemporaryFile file;
+  for (int run = 0; run < 20; ++run) {
+    CAPTURE(seed(), run);
+    const Config config = random_config(random);
+    FrameRecord record = record_frame(random_frame(random), config, nullptr);
+    write_record(file.path, record);
+    const FrameRecord back = read_record(file.path);
+    CHECK(back.name == record.name);
+    CHECK(to_toml(back.config) == to_toml(record.config));
+    REQUIRE(back.jobs.size() == record.jobs.size());
+    CHECK(Retimer(back).retime(config) == Retimer(std::move(record)).retime(config));
+  }
+}
+
+TEST_CASE("a damaged record is refused or still a record, never more", "[timing][bad_input]") {
+  Random random(seed());
+  const TemporaryFile file;
+  Frame frame = random_frame(random);
+  while (record_frame(frame, Config{}, nullptr).accesses.size() < 5) {
+    frame = random_frame(random);
+  }
+  write_record(file.path, record_frame(frame, Config{}, nullptr));
+  const std::vector<std::byte> good = decompress(read_raw_bytes(file.path), "record", 1 << 24);
+  const auto run = [&](const std::vector<std::byte>& bytes) {
+    write_bytes(file.path, bytes);
+    try {
+      Retimer retimer(read_record(file.path));
+      retimer.retime(retimer.record().config);
+    } catch (const InputError& error) {
+      CHECK(std::string(error.what()).find(file.path.filename().string()) != std::string::npos);
+    }
+  };
+  for (std::size_t size = 0; size < good.size(); size += 1 + good.size() / 300) {
+    run({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)});
+  }
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<std::byte> bytes = good;
+    const auto at = static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(good.size()) - 1));
+    bytes[at] ^= static_cast<std::byte>(1 << random.between(0, 7));
+    run(bytes);
+  }
+  CHECK_THROWS_AS(read_record("/nowhere/at.all"), InputError);
+}
