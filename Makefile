@@ -12,7 +12,7 @@ help: ## Show this list.
 
 .PHONY: demo
 demo: release-program ## Install what is missing, build, and rasterize a real frame into out/cc0_truck.
-	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --out out/cc0_truck
+	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --fidelity recurrence --out out/cc0_truck
 
 .PHONY: test
 test: release debug $(PYTHON_TOOLS) ## Install what is missing, build, and run every test.

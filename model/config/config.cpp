@@ -178,8 +178,9 @@ struct Assign {
     return legal;
   }
   bool operator()(const Switch& s) const {
-    config.*s.member = text == "true";
-    return text == "true" || text == "false";
+    const bool legal = text == "true" || text == "false";
+    config.*s.member = legal ? text == "true" : config.*s.member;
+    return legal;
   }
   template <class Enum>
   bool operator()(const NamedValues<Enum>& n) const {
