@@ -1,20 +1,36 @@
 // Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp and model/units/packets.hpp: change those
-// and print this file again. A configuration is chosen by -DHALFSPACE_TILE_SIZE=4|8|16 and
-// -DHALFSPACE_SUB_PIXEL_BITS=4..8.
+// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp and
+// model/units/link_packets.hpp: change those and print this file again. A configuration is chosen by defines:
+// -DHALFSPACE_SUB_PIXEL_BITS=4..8
+// -DHALFSPACE_TILE_SIZE=4|8|16
+// -DHALFSPACE_QUAD_WIDTH=1|2|4|8|16
+// -DHALFSPACE_TEST_WIDTH=1|2|4|8|16
+// -DHALFSPACE_Z_PARTS=1|2|4
 
+`ifndef HALFSPACE_SUB_PIXEL_BITS
+`define HALFSPACE_SUB_PIXEL_BITS 8
+`endif
 `ifndef HALFSPACE_TILE_SIZE
 `define HALFSPACE_TILE_SIZE 8
 `endif
-`ifndef HALFSPACE_SUB_PIXEL_BITS
-`define HALFSPACE_SUB_PIXEL_BITS 8
+`ifndef HALFSPACE_QUAD_WIDTH
+`define HALFSPACE_QUAD_WIDTH 4
+`endif
+`ifndef HALFSPACE_TEST_WIDTH
+`define HALFSPACE_TEST_WIDTH 4
+`endif
+`ifndef HALFSPACE_Z_PARTS
+`define HALFSPACE_Z_PARTS 1
 `endif
 
 package raster_pkg;
 
   parameter int unsigned SubPixelBits = `HALFSPACE_SUB_PIXEL_BITS;
   parameter int unsigned TileSize = `HALFSPACE_TILE_SIZE;
+  parameter int unsigned QuadWidth = `HALFSPACE_QUAD_WIDTH;
+  parameter int unsigned TestWidth = `HALFSPACE_TEST_WIDTH;
+  parameter int unsigned ZParts = `HALFSPACE_Z_PARTS;
 
   // window coordinate, signed, 1/2^SubPixelBits pixel
   parameter int unsigned CoordBits = 16 + SubPixelBits;
@@ -38,9 +54,86 @@ package raster_pkg;
   parameter int unsigned EdgeCount = 3;
   // where the units keep what all tiles of a triangle share
   parameter int unsigned SlotBits = 8;
+  // yes or no
+  parameter int unsigned FlagBits = 1;
+  // depth of a vertex: a unorm code with a fraction below it, or a float32 without its sign
+  parameter int unsigned VertexDepthBits = 31;
+  // a stored depth code of any format
+  parameter int unsigned CodeBits = 32;
+  // (2^63 - 1) / (2A scaled to 32 bits)
+  parameter int unsigned ReciprocalBits = 32;
+  // E >> shift is on the scale of the 32-bit 2A, signed
+  parameter int unsigned ShiftBits = 6;
+  // depth format: 0 none, 1 unorm16, 2 unorm24, 4 float32
+  parameter int unsigned FormatBits = 3;
+  // depth comparison, numbered as in Vulkan
+  parameter int unsigned FuncBits = 3;
+  // number of a tile, or of a line of depth in memory
+  parameter int unsigned LineBits = 32;
+  // quads of a tile
+  parameter int unsigned TileQuads = TileSize * TileSize / 4;
+  // a quad of the tile, in row order
+  parameter int unsigned QuadIndexBits = 2 * TileLog2 - 2;
+  // samples of a quad: (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)
+  parameter int unsigned QuadMaskBits = 4;
+  // samples that are tested in a cycle
+  parameter int unsigned TestSamples = 4 * TestWidth;
 
+  typedef logic signed [CoordBits-1:0] coord_t;
   typedef logic signed [EdgeBits-1:0] edge_t;
   typedef logic signed [StepBits-1:0] step_t;
+  typedef logic signed [ShiftBits-1:0] shift_t;
+
+  // front end -> setup: on the sub-pixel grid
+  typedef struct packed {
+    coord_t [2:0] x;
+    coord_t [2:0] y;
+    logic [2:0] [VertexDepthBits-1:0] z;
+  } screen_triangle_t;
+
+  // the state of a draw, as it travels with its triangles
+  typedef struct packed {
+    logic [FlagBits-1:0] front_positive_area;
+    logic [FlagBits-1:0] cull_front;
+    logic [FlagBits-1:0] cull_back;
+    logic [FlagBits-1:0] bottom_left_rule;
+    logic [FlagBits-1:0] empty;
+    logic [PixelBits-1:0] x_first;
+    logic [PixelBits-1:0] x_last;
+    logic [PixelBits-1:0] y_first;
+    logic [PixelBits-1:0] y_last;
+    logic [FormatBits-1:0] format;
+    logic [FlagBits-1:0] test;
+    logic [FlagBits-1:0] write;
+    logic [FuncBits-1:0] func;
+    logic [CodeBits-1:0] clear_code;
+    logic [LineBits-1:0] first_tile;
+    logic [TileCoordBits-1:0] tiles_x;
+  } draw_state_t;
+
+  // setup -> tile_walker: what the walk needs
+  typedef struct packed {
+    edge_t [2:0] e;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    logic [PixelBits-1:0] x_first;
+    logic [PixelBits-1:0] x_last;
+    logic [PixelBits-1:0] y_first;
+    logic [PixelBits-1:0] y_last;
+  } setup_triangle_t;
+
+  // setup -> early_z, by way of the slots of tile_walker
+  typedef struct packed {
+    step_t [1:0] a;
+    step_t [1:0] b;
+    logic [2:0] [VertexDepthBits-1:0] z;
+    logic [2:0] [FlagBits-1:0] bias;
+    edge_t area2;
+    logic [ReciprocalBits-1:0] reciprocal;
+    shift_t shift;
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+  } depth_equation_t;
 
   // tile_walker -> edge_evaluator
   typedef struct packed {
@@ -66,7 +159,34 @@ package raster_pkg;
     logic [MaskBits-1:0] mask;
   } coverage_t;
 
+  // quad_generator -> early_z: a beat of a burst
+  typedef struct packed {
+    logic [SlotBits-1:0] slot;
+    logic [TileCoordBits-1:0] tile_x;
+    logic [TileCoordBits-1:0] tile_y;
+    edge_t [1:0] e;
+    logic [FlagBits-1:0] last;
+    logic [ZParts-1:0] [FlagBits-1:0] parts;
+    logic [QuadWidth-1:0] [QuadIndexBits-1:0] index;
+    logic [QuadWidth-1:0] [QuadMaskBits-1:0] mask;
+  } quad_beat_t;
+
+  // early_z -> fragment shader: a beat of a burst
+  typedef struct packed {
+    logic [SlotBits-1:0] slot;
+    logic [TileCoordBits-1:0] tile_x;
+    logic [TileCoordBits-1:0] tile_y;
+    logic [FlagBits-1:0] last;
+    logic [TestWidth-1:0] [QuadIndexBits-1:0] index;
+    logic [TestWidth-1:0] [QuadMaskBits-1:0] mask;
+    logic [TestWidth-1:0] [QuadMaskBits-1:0] passed;
+    logic [TestSamples-1:0] [CodeBits-1:0] depth;
+  } tested_beat_t;
+
 endpackage : raster_pkg
 
-`undef HALFSPACE_TILE_SIZE
 `undef HALFSPACE_SUB_PIXEL_BITS
+`undef HALFSPACE_TILE_SIZE
+`undef HALFSPACE_QUAD_WIDTH
+`undef HALFSPACE_TEST_WIDTH
+`undef HALFSPACE_Z_PARTS

@@ -1,4 +1,4 @@
-/// The widths of every number that crosses a link, as formulas of two parameters.
+/// The widths of every number that crosses a link, as formulas of the parameters of the machine.
 ///
 /// This table is the one source for C++ and SystemVerilog: each formula is compiled here and printed, as the
 /// same text, into rtl/raster_pkg.sv (see report/raster_pkg.hpp). The names are therefore SystemVerilog's.
@@ -7,7 +7,7 @@
 namespace halfspace {
 
 // clang-format off
-/// W(name, formula, meaning). A formula may use SubPixelBits, TileSize and the names above it.
+/// W(name, formula, meaning). A formula may use the parameters (see Widths) and the names above it.
 #define HALFSPACE_WIDTHS(W)                                                                                       \
   W(CoordBits,       16 + SubPixelBits,                                "window coordinate, signed, 1/2^SubPixelBits pixel") \
   W(StepBits,        CoordBits + 1,                                    "A or B of an edge: the difference of two coordinates") \
@@ -19,13 +19,28 @@ namespace halfspace {
   W(LocalEdgeBits,   StepBits + TileLog2 + 2,                          "edge value inside one tile, saturated at the tile origin") \
   W(MaskBits,        TileSize * TileSize,                              "coverage mask of a tile, bit y * TileSize + x") \
   W(EdgeCount,       3,                                                "edges of a triangle: one accept bit each")     \
-  W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share")
+  W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share") \
+  W(FlagBits,        1,                                                "yes or no")                                  \
+  W(VertexDepthBits, 31,                                               "depth of a vertex: a unorm code with a fraction below it, or a float32 without its sign") \
+  W(CodeBits,        32,                                               "a stored depth code of any format")           \
+  W(ReciprocalBits,  32,                                               "(2^63 - 1) / (2A scaled to 32 bits)")         \
+  W(ShiftBits,       6,                                                "E >> shift is on the scale of the 32-bit 2A, signed") \
+  W(FormatBits,      3,                                                "depth format: 0 none, 1 unorm16, 2 unorm24, 4 float32") \
+  W(FuncBits,        3,                                                "depth comparison, numbered as in Vulkan")     \
+  W(LineBits,        32,                                               "number of a tile, or of a line of depth in memory") \
+  W(TileQuads,       TileSize * TileSize / 4,                          "quads of a tile")                            \
+  W(QuadIndexBits,   2 * TileLog2 - 2,                                 "a quad of the tile, in row order")           \
+  W(QuadMaskBits,    4,                                                "samples of a quad: (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)") \
+  W(TestSamples,     4 * TestWidth,                                    "samples that are tested in a cycle")
 // clang-format on
 
-/// All widths for one choice of the two parameters.
+/// All widths for one choice of the parameters.
 struct Widths {
   int SubPixelBits = 8;  ///< 4 to 8
   int TileSize = 8;      ///< 4, 8 or 16 pixels
+  int QuadWidth = 4;     ///< quads of a beat out of quad_generator: 1, 2, 4, 8 or 16, at most those of a tile
+  int TestWidth = 4;     ///< quads that early_z tests in a cycle, at most QuadWidth
+  int ZParts = 1;        ///< bands of rows of a tile that are lines of their own in the z cache: 1, 2 or 4
 #define W(name, formula, meaning) int name = formula;
   HALFSPACE_WIDTHS(W)
 #undef W

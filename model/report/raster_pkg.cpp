@@ -10,10 +10,27 @@
 #include <vector>
 
 #include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
 
 namespace halfspace {
 namespace {
+
+/// A parameter of the machine, and the define that sets it.
+struct Parameter {
+  std::string_view name;
+  std::string_view define;
+  std::string_view legal;
+  int Widths::*member;
+};
+
+constexpr std::array kParameters{
+    Parameter{"SubPixelBits", "HALFSPACE_SUB_PIXEL_BITS", "4..8", &Widths::SubPixelBits},
+    Parameter{"TileSize", "HALFSPACE_TILE_SIZE", "4|8|16", &Widths::TileSize},
+    Parameter{"QuadWidth", "HALFSPACE_QUAD_WIDTH", "1|2|4|8|16", &Widths::QuadWidth},
+    Parameter{"TestWidth", "HALFSPACE_TEST_WIDTH", "1|2|4|8|16", &Widths::TestWidth},
+    Parameter{"ZParts", "HALFSPACE_Z_PARTS", "1|2|4", &Widths::ZParts},
+};
 
 struct WidthEntry {
   std::string_view name;
@@ -32,6 +49,12 @@ std::string_view name_of(int Widths::*member) {
     throw std::logic_error("raster_pkg: a packet field's width is not in HALFSPACE_WIDTHS");
   }
   return entry->name;
+}
+
+/// The parameter or width that is the length of an array.
+std::string length_name(int Widths::*member) {
+  const auto* entry = std::ranges::find(kParameters, member, &Parameter::member);
+  return std::string(entry != kParameters.end() ? entry->name : name_of(member));
 }
 
 /// "TileCoordBits" -> "tile_coord_t".
@@ -59,7 +82,7 @@ constexpr std::size_t kElements<std::array<Element, N>> = N;
 /// one.
 template <class Packet>
 void add_signed_types(std::vector<int Widths::*>& types) {
-  Packet::fields([&](const char*, auto, int Widths::*width, Sign sign) {
+  Packet::fields([&](const char*, auto, int Widths::*width, Sign sign, auto...) {
     if (sign == Sign::kSigned && std::ranges::find(types, width) == types.end()) {
       types.push_back(width);
     }
@@ -69,11 +92,13 @@ void add_signed_types(std::vector<int Widths::*>& types) {
 template <class Packet>
 std::string packed_struct(std::string_view type, std::string_view meaning) {
   std::string text = "\n  // " + std::string(meaning) + "\n  typedef struct packed {\n";
-  Packet::fields([&](const char* name, auto member, int Widths::*width, Sign sign) {
+  Packet::fields([&](const char* name, auto member, int Widths::*width, Sign sign, auto... count) {
     using Field = std::remove_cvref_t<decltype(std::declval<Packet>().*member)>;
     const std::string range = "[" + std::string(name_of(width)) + "-1:0]";
     text += "    " + (sign == Sign::kSigned ? type_name(name_of(width)) : std::string("logic"));
-    if constexpr (kElements<Field> != 0) {
+    if constexpr (sizeof...(count) != 0) {
+      text += " [" + length_name(count...) + "-1:0]";
+    } else if constexpr (kElements<Field> != 0) {
       text += " [" + std::to_string(kElements<Field> - 1) + ":0]";
     }
     text += (sign == Sign::kSigned ? "" : " " + range) + " " + std::string(name) + ";\n";
@@ -87,44 +112,55 @@ std::string raster_pkg() {
   std::string text =
       R"(// Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp and model/units/packets.hpp: change those
-// and print this file again. A configuration is chosen by -DHALFSPACE_TILE_SIZE=4|8|16 and
-// -DHALFSPACE_SUB_PIXEL_BITS=4..8.
-
-`ifndef HALFSPACE_TILE_SIZE
-`define HALFSPACE_TILE_SIZE 8
-`endif
-`ifndef HALFSPACE_SUB_PIXEL_BITS
-`define HALFSPACE_SUB_PIXEL_BITS 8
-`endif
-
-package raster_pkg;
-
-  parameter int unsigned SubPixelBits = `HALFSPACE_SUB_PIXEL_BITS;
-  parameter int unsigned TileSize = `HALFSPACE_TILE_SIZE;
-
+// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp and
+// model/units/link_packets.hpp: change those and print this file again. A configuration is chosen by defines:
 )";
+  for (const Parameter& parameter : kParameters) {
+    text += "// -D" + std::string(parameter.define) + "=" + std::string(parameter.legal) + "\n";
+  }
+  for (const Parameter& parameter : kParameters) {
+    const std::string define(parameter.define);
+    text += "\n`ifndef " + define + "\n`define " + define + " " + std::to_string(Widths{}.*parameter.member) +
+            "\n`endif";
+  }
+  text += "\n\npackage raster_pkg;\n\n";
+  for (const Parameter& parameter : kParameters) {
+    text += "  parameter int unsigned " + std::string(parameter.name) + " = `" +
+            std::string(parameter.define) + ";\n";
+  }
+  text += "\n";
   for (const WidthEntry& entry : kWidthTable) {
     text += "  // " + std::string(entry.meaning) + "\n";
     text +=
         "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
   }
   std::vector<int Widths::*> types;
+  add_signed_types<ScreenTrianglePacket>(types);
+  add_signed_types<SetupTrianglePacket>(types);
+  add_signed_types<DepthEquationPacket>(types);
   add_signed_types<TileJob>(types);
   add_signed_types<Coverage>(types);
+  add_signed_types<QuadBeat>(types);
   text += "\n";
   for (int Widths::*width : types) {
     const std::string name(name_of(width));
     text += "  typedef logic signed [" + name + "-1:0] " + type_name(name) + ";\n";
   }
+  text +=
+      packed_struct<ScreenTrianglePacket>("screen_triangle_t", "front end -> setup: on the sub-pixel grid");
+  text +=
+      packed_struct<DrawStatePacket>("draw_state_t", "the state of a draw, as it travels with its triangles");
+  text += packed_struct<SetupTrianglePacket>("setup_triangle_t", "setup -> tile_walker: what the walk needs");
+  text += packed_struct<DepthEquationPacket>("depth_equation_t",
+                                             "setup -> early_z, by way of the slots of tile_walker");
   text += packed_struct<TileJob>("tile_job_t", "tile_walker -> edge_evaluator");
   text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
-  text += R"(
-endpackage : raster_pkg
-
-`undef HALFSPACE_TILE_SIZE
-`undef HALFSPACE_SUB_PIXEL_BITS
-)";
+  text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");
+  text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
+  text += "\nendpackage : raster_pkg\n\n";
+  for (const Parameter& parameter : kParameters) {
+    text += "`undef " + std::string(parameter.define) + "\n";
+  }
   return text;
 }
 

@@ -24,12 +24,20 @@ inline constexpr int kFieldElements = 1;
 template <class Element, std::size_t N>
 inline constexpr int kFieldElements<std::array<Element, N>> = static_cast<int>(N);
 
+/// Elements of a field on the link. Some arrays are as long as a parameter says, and no longer than in C++.
+template <class Packet, class Member>
+constexpr int field_elements(const Widths& widths, Member /*member*/, int Widths::*count = nullptr) {
+  return count != nullptr
+             ? widths.*count
+             : kFieldElements<std::remove_cvref_t<decltype(std::declval<Packet>().*std::declval<Member>())>>;
+}
+
 /// Bits of a packet.
 template <class Packet>
 constexpr int packed_bits(const Widths& widths) {
   int bits = 0;
-  Packet::fields([&](const char*, auto member, int Widths::*width, Sign) {
-    bits += widths.*width * kFieldElements<std::remove_cvref_t<decltype(std::declval<Packet>().*member)>>;
+  Packet::fields([&](const char*, auto member, int Widths::*width, Sign, auto... count) {
+    bits += widths.*width * field_elements<Packet>(widths, member, count...);
   });
   return bits;
 }
@@ -113,11 +121,12 @@ constexpr bool fits(int width, Sign /*sign*/, const TileMask& mask) {
   return true;
 }
 
-/// Calls visit(element) for each element of a field, the highest first: that is the order of a packed array.
+/// Calls visit(element) for `count` elements of a field, the highest first: that is the order of a packed
+/// array.
 template <class Field, class Visit>
-constexpr void for_each_element(Field& field, Visit&& visit) {
+constexpr void for_each_element(Field& field, int count, Visit&& visit) {
   if constexpr (requires { field.size(); }) {
-    for (std::size_t i = field.size(); i-- > 0;) {
+    for (auto i = static_cast<std::size_t>(count); i-- > 0;) {
       visit(field[i]);
     }
   } else {
@@ -131,10 +140,10 @@ constexpr void for_each_element(Field& field, Visit&& visit) {
 template <class Packet>
 constexpr bool fits_widths(const Packet& packet, const Widths& widths) {
   bool fits = true;
-  Packet::fields([&](const char*, auto member, int Widths::*width, Sign sign) {
-    detail::for_each_element(packet.*member, [&](const auto& element) {
-      fits = fits && detail::fits(widths.*width, sign, element);
-    });
+  Packet::fields([&](const char*, auto member, int Widths::*width, Sign sign, auto... count) {
+    detail::for_each_element(
+        packet.*member, field_elements<Packet>(widths, member, count...),
+        [&](const auto& element) { fits = fits && detail::fits(widths.*width, sign, element); });
   });
   return fits;
 }
@@ -146,11 +155,12 @@ constexpr void pack(const Packet& packet, const Widths& widths, std::span<std::u
     word = 0;
   }
   int lsb = packed_bits<Packet>(widths);
-  Packet::fields([&](const char*, auto member, int Widths::*width, Sign) {
-    detail::for_each_element(packet.*member, [&](const auto& element) {
-      lsb -= widths.*width;
-      detail::put(words, lsb, widths.*width, element);
-    });
+  Packet::fields([&](const char*, auto member, int Widths::*width, Sign, auto... count) {
+    detail::for_each_element(packet.*member, field_elements<Packet>(widths, member, count...),
+                             [&](const auto& element) {
+                               lsb -= widths.*width;
+                               detail::put(words, lsb, widths.*width, element);
+                             });
   });
 }
 
@@ -158,11 +168,12 @@ template <class Packet>
 constexpr Packet unpack(std::span<const std::uint32_t> words, const Widths& widths) {
   Packet packet;
   int lsb = packed_bits<Packet>(widths);
-  Packet::fields([&](const char*, auto member, int Widths::*width, Sign sign) {
-    detail::for_each_element(packet.*member, [&](auto& element) {
-      lsb -= widths.*width;
-      detail::get(words, lsb, widths.*width, sign, element);
-    });
+  Packet::fields([&](const char*, auto member, int Widths::*width, Sign sign, auto... count) {
+    detail::for_each_element(packet.*member, field_elements<Packet>(widths, member, count...),
+                             [&](auto& element) {
+                               lsb -= widths.*width;
+                               detail::get(words, lsb, widths.*width, sign, element);
+                             });
   });
   return packet;
 }
@@ -180,12 +191,13 @@ template <class Packet>
 std::vector<FieldSlot> field_slots(const Widths& widths) {
   std::vector<FieldSlot> slots;
   int lsb = packed_bits<Packet>(widths);
-  Packet::fields([&](const char* name, auto member, int Widths::*width, Sign sign) {
-    constexpr int kCount = kFieldElements<std::remove_cvref_t<decltype(std::declval<Packet>().*member)>>;
-    for (int i = kCount; i-- > 0;) {
+  Packet::fields([&](const char* name, auto member, int Widths::*width, Sign sign, auto... count) {
+    using Field = std::remove_cvref_t<decltype(std::declval<Packet>().*member)>;
+    const int elements = field_elements<Packet>(widths, member, count...);
+    for (int i = elements; i-- > 0;) {
       lsb -= widths.*width;
-      slots.push_back(
-          {kCount == 1 ? name : name + ("[" + std::to_string(i) + "]"), lsb, widths.*width, sign});
+      slots.push_back({kFieldElements<Field> == 1 ? name : name + ("[" + std::to_string(i) + "]"), lsb,
+                       widths.*width, sign});
     }
   });
   return slots;

@@ -30,16 +30,18 @@ class Host : public sc_core::sc_module {
   }
 
   void write(std::uint64_t address) {
-    std::array<std::uint8_t, 4> word{};
-    tlm::tlm_generic_payload payload;
-    payload.set_write();
-    payload.set_address(address);
-    payload.set_data_ptr(word.data());
-    payload.set_data_length(word.size());
-    payload.set_streaming_width(word.size());
+    payload_.set_write();
+    payload_.set_address(address);
+    payload_.set_data_ptr(word_.data());
+    payload_.set_data_length(word_.size());
+    payload_.set_streaming_width(word_.size());
     sc_core::sc_time delay;
-    socket->b_transport(payload, delay);
+    socket->b_transport(payload_, delay);
   }
+
+  // Not on the stack of the process, which nobody unwinds after a deadlock.
+  std::array<std::uint8_t, 4> word_{};
+  tlm::tlm_generic_payload payload_;
 };
 
 struct Platform {

@@ -1,0 +1,174 @@
+/// Packets of the RTL's links whose model counterparts are larger or nested, field by field as the wires
+/// carry them, and how they are made. See packets.hpp for what fields() is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/setup.hpp"
+
+namespace halfspace {
+
+/// Quads of the widest beat.
+inline constexpr std::size_t kMostBeatQuads = 16;
+
+struct ScreenTrianglePacket {
+  std::array<std::int32_t, 3> x{};
+  std::array<std::int32_t, 3> y{};
+  std::array<std::uint32_t, 3> z{};
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    visit("x", &ScreenTrianglePacket::x, &Widths::CoordBits, Sign::kSigned);
+    visit("y", &ScreenTrianglePacket::y, &Widths::CoordBits, Sign::kSigned);
+    visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kUnsigned);
+  }
+};
+
+/// All that the units know of a draw.
+struct DrawStatePacket {
+  std::uint8_t front_positive_area = 0;
+  std::uint8_t cull_front = 0;
+  std::uint8_t cull_back = 0;
+  std::uint8_t bottom_left_rule = 0;
+  std::uint8_t empty = 0;  ///< the bounds hold no pixel
+  std::uint16_t x_first = 0;
+  std::uint16_t x_last = 0;
+  std::uint16_t y_first = 0;
+  std::uint16_t y_last = 0;
+  std::uint8_t format = 0;
+  std::uint8_t test = 0;
+  std::uint8_t write = 0;
+  std::uint8_t func = 0;
+  std::uint32_t clear_code = 0;  ///< of the surface's last fast clear
+  std::uint32_t first_tile = 0;  ///< of the surface, among the tiles of all surfaces
+  std::uint16_t tiles_x = 0;     ///< tiles in a row of the surface, less 1
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = DrawStatePacket;
+    visit("front_positive_area", &P::front_positive_area, &Widths::FlagBits, Sign::kUnsigned);
+    visit("cull_front", &P::cull_front, &Widths::FlagBits, Sign::kUnsigned);
+    visit("cull_back", &P::cull_back, &Widths::FlagBits, Sign::kUnsigned);
+    visit("bottom_left_rule", &P::bottom_left_rule, &Widths::FlagBits, Sign::kUnsigned);
+    visit("empty", &P::empty, &Widths::FlagBits, Sign::kUnsigned);
+    visit("x_first", &P::x_first, &Widths::PixelBits, Sign::kUnsigned);
+    visit("x_last", &P::x_last, &Widths::PixelBits, Sign::kUnsigned);
+    visit("y_first", &P::y_first, &Widths::PixelBits, Sign::kUnsigned);
+    visit("y_last", &P::y_last, &Widths::PixelBits, Sign::kUnsigned);
+    visit("format", &P::format, &Widths::FormatBits, Sign::kUnsigned);
+    visit("test", &P::test, &Widths::FlagBits, Sign::kUnsigned);
+    visit("write", &P::write, &Widths::FlagBits, Sign::kUnsigned);
+    visit("func", &P::func, &Widths::FuncBits, Sign::kUnsigned);
+    visit("clear_code", &P::clear_code, &Widths::CodeBits, Sign::kUnsigned);
+    visit("first_tile", &P::first_tile, &Widths::LineBits, Sign::kUnsigned);
+    visit("tiles_x", &P::tiles_x, &Widths::TileCoordBits, Sign::kUnsigned);
+  }
+};
+
+/// What the walk needs of a triangle. The walk starts at the first tile of the bounds, or, where the bounds
+/// do not fit one tile and blocks are walked, at the first block.
+struct SetupTrianglePacket {
+  std::array<std::int64_t, 3> e{};  ///< at the centre of the first pixel of that tile or block
+  std::array<std::int32_t, 3> a{};
+  std::array<std::int32_t, 3> b{};
+  std::uint16_t x_first = 0;  ///< bounds, in pixels, inclusive
+  std::uint16_t x_last = 0;
+  std::uint16_t y_first = 0;
+  std::uint16_t y_last = 0;
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = SetupTrianglePacket;
+    visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("a", &P::a, &Widths::StepBits, Sign::kSigned);
+    visit("b", &P::b, &Widths::StepBits, Sign::kSigned);
+    visit("x_first", &P::x_first, &Widths::PixelBits, Sign::kUnsigned);
+    visit("x_last", &P::x_last, &Widths::PixelBits, Sign::kUnsigned);
+    visit("y_first", &P::y_first, &Widths::PixelBits, Sign::kUnsigned);
+    visit("y_last", &P::y_last, &Widths::PixelBits, Sign::kUnsigned);
+  }
+};
+
+/// What early_z needs of a triangle, for the barycentric interpolator. Index 0 of a and b is edge 1.
+struct DepthEquationPacket {
+  std::array<std::int32_t, 2> a{};
+  std::array<std::int32_t, 2> b{};
+  std::array<std::uint32_t, 3> z{};
+  std::array<std::uint8_t, 3> bias{};
+  std::int64_t area2 = 0;
+  std::uint32_t reciprocal = 0;
+  std::int8_t shift = 0;
+  std::uint32_t min_code = 0;
+  std::uint32_t max_code = 0;
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = DepthEquationPacket;
+    visit("a", &P::a, &Widths::StepBits, Sign::kSigned);
+    visit("b", &P::b, &Widths::StepBits, Sign::kSigned);
+    visit("z", &P::z, &Widths::VertexDepthBits, Sign::kUnsigned);
+    visit("bias", &P::bias, &Widths::FlagBits, Sign::kUnsigned);
+    visit("area2", &P::area2, &Widths::EdgeBits, Sign::kSigned);
+    visit("reciprocal", &P::reciprocal, &Widths::ReciprocalBits, Sign::kUnsigned);
+    visit("shift", &P::shift, &Widths::ShiftBits, Sign::kSigned);
+    visit("min_code", &P::min_code, &Widths::CodeBits, Sign::kUnsigned);
+    visit("max_code", &P::max_code, &Widths::CodeBits, Sign::kUnsigned);
+  }
+};
+
+/// A beat of a burst: up to QuadWidth quads of one tile. Quads beyond the last have mask 0 and index 0.
+struct QuadBeat {
+  std::uint8_t slot = 0;
+  std::uint16_t tile_x = 0;
+  std::uint16_t tile_y = 0;
+  std::array<std::int64_t, 2> e{};      ///< of edges 1 and 2 at the tile origin
+  std::uint8_t last = 0;                ///< of the burst
+  std::array<std::uint8_t, 4> parts{};  ///< bands of rows in which the burst has quads
+  std::array<std::uint8_t, kMostBeatQuads> index{};
+  std::array<std::uint8_t, kMostBeatQuads> mask{};
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = QuadBeat;
+    visit("slot", &P::slot, &Widths::SlotBits, Sign::kUnsigned);
+    visit("tile_x", &P::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_y", &P::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("last", &P::last, &Widths::FlagBits, Sign::kUnsigned);
+    visit("parts", &P::parts, &Widths::FlagBits, Sign::kUnsigned, &Widths::ZParts);
+    visit("index", &P::index, &Widths::QuadIndexBits, Sign::kUnsigned, &Widths::QuadWidth);
+    visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::QuadWidth);
+  }
+};
+
+/// A beat of a burst after the test: up to TestWidth quads, with what passed and the depth of every covered
+/// sample (0 at the others, and where the target has no depth surface).
+struct TestedBeat {
+  std::uint8_t slot = 0;
+  std::uint16_t tile_x = 0;
+  std::uint16_t tile_y = 0;
+  std::uint8_t last = 0;
+  std::array<std::uint8_t, kMostBeatQuads> index{};
+  std::array<std::uint8_t, kMostBeatQuads> mask{};
+  std::array<std::uint8_t, kMostBeatQuads> passed{};
+  std::array<std::uint32_t, 4 * kMostBeatQuads> depth{};  ///< four samples a quad
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = TestedBeat;
+    visit("slot", &P::slot, &Widths::SlotBits, Sign::kUnsigned);
+    visit("tile_x", &P::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_y", &P::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("last", &P::last, &Widths::FlagBits, Sign::kUnsigned);
+    visit("index", &P::index, &Widths::QuadIndexBits, Sign::kUnsigned, &Widths::TestWidth);
+    visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::TestWidth);
+    visit("passed", &P::passed, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::TestWidth);
+    visit("depth", &P::depth, &Widths::CodeBits, Sign::kUnsigned, &Widths::TestSamples);
+  }
+};
+
+}  // namespace halfspace
