@@ -28,6 +28,7 @@ class Bench {
         options_(options),
         scoreboard_(shape.output_fields),
         timing_(shape.latency, shape.capacity),
+        unit_timing_(shape.timing ? shape.timing() : nullptr),
         idle_(options.idle, options.idle_share, options.seed ^ kIdleSeed),
         stall_(options.stall, options.stall_share, options.seed ^ kStallSeed),
         resets_(options.seed ^ kResetSeed),
@@ -74,6 +75,9 @@ class Bench {
     offered_ = false;
     scoreboard_.clear();
     timing_.clear();
+    if (unit_timing_) {
+      unit_timing_->clear();
+    }
     monitor_.clear();
   }
 
@@ -125,7 +129,10 @@ class Bench {
     if (left && options_.checks.packets) {
       fail(scoreboard_.receive(cycle_, shim_.payload()));
     }
-    if (options_.checks.timing) {
+    if (options_.checks.timing && unit_timing_) {
+      fail(unit_timing_->cycle(
+          {cycle_, offered_, dut_.input_ready(), input_, shim_.valid(), sink_ready, shim_.payload()}));
+    } else if (options_.checks.timing) {
       fail(timing_.cycle(cycle_, offered_, dut_.input_ready(), shim_.valid(), sink_ready));
     }
   }
@@ -196,6 +203,7 @@ class Bench {
   const BenchOptions& options_;
   Scoreboard scoreboard_;
   CreditTiming timing_;
+  std::unique_ptr<UnitTiming> unit_timing_;  ///< in its place
   HandshakeMonitor monitor_{"output"};
   Staller idle_;
   Staller stall_;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +15,7 @@
 #include "scoreboard.hpp"
 #include "staller.hpp"
 #include "stream_dut.hpp"
+#include "unit_timing.hpp"
 
 namespace halfspace::tb {
 
@@ -36,6 +39,8 @@ struct UnitShape {
   std::vector<FieldSlot> output_fields;
   int latency = 0;   ///< cycles from a packet's acceptance until its result is valid
   int capacity = 0;  ///< credits
+  /// For a unit whose cycle table latency and capacity do not tell; the checker of a run.
+  std::function<std::unique_ptr<UnitTiming>()> timing;
 };
 
 /// Which of the checkers may end the run. Must-fail cases leave out those that would see their fault first.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,obj,ply,gltf}/*.
+"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,record,obj,ply,gltf}/*.
 
 Each is the smallest file that reaches one branch of a reader. Standard library only.
 """
@@ -25,6 +25,22 @@ def ptf():
     return {"plain": plain, "empty": header[:20] + bytes(44), "tails": tails, "gzip": gzip.compress(plain, mtime=0),
             "xz": lzma.compress(plain), "xz_no_check": lzma.compress(plain, check=lzma.CHECK_NONE),
             "gzip_twice": gzip.compress(plain[:99], mtime=0) + gzip.compress(plain[99:], mtime=0)}
+
+
+def record():
+    def text(t):
+        return struct.pack("<I", len(t)) + t
+
+    def words(*rows):  # a list: its length, and the words of its items
+        return struct.pack("<I", len(rows)) + b"".join(struct.pack("<%dI" % len(r), *r) for r in rows)
+
+    head = struct.pack("<4sI", b"HSRC", 1) + text(b"seed")
+    draw = (0, 0, 1, 2, 1)  # kind, surface, touches depth, triangles, dropped after
+    body = words((2, 4, 4)) + words((2, 0, 0, 0, 0), draw) + words((1, 2, 0), (0, 1, 3))
+    body += words((4 << 24,), (2,), (16 << 24 | 1,)) + words((0x13000000,), (0x3F001001,))
+    small = text(b"[z_cache]\nlines = 1\nways = 1\n")
+    return {"plain": head + text(b"") + body, "small": head + small + body,
+            "empty": head + text(b"") + words() * 5}
 
 
 def obj():
@@ -92,7 +108,7 @@ def gltf():
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for kind, make in (("ptf", ptf), ("obj", obj), ("ply", ply), ("gltf", gltf)):
+    for kind, make in (("ptf", ptf), ("record", record), ("obj", obj), ("ply", ply), ("gltf", gltf)):
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in make().items():
             (folder / kind / name).write_bytes(content.encode() if isinstance(content, str) else content)

@@ -52,8 +52,7 @@ class Writer {
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::span<const std::byte> bytes)
-      : name_(display_name(path)), bytes_(bytes) {}
+  Reader(std::string name, std::span<const std::byte> bytes) : name_(std::move(name)), bytes_(bytes) {}
 
   [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
 
@@ -200,8 +199,11 @@ void write_record(const std::filesystem::path& path, const FrameRecord& record) 
 }
 
 FrameRecord read_record(const std::filesystem::path& path) {
-  const std::vector<std::byte> bytes = read_bytes(path);
-  Reader reader(path, bytes);
+  return parse_record(read_bytes(path), display_name(path));
+}
+
+FrameRecord parse_record(std::span<const std::byte> bytes, const std::string& name) {
+  Reader reader(name, bytes);
   if (bytes.size() < 8 || reader.word() != kMagic) {
     reader.fail("not a record of a frame: it does not start with HSRC");
   }
@@ -210,7 +212,7 @@ FrameRecord read_record(const std::filesystem::path& path) {
   }
   FrameRecord record;
   record.name = reader.text();
-  record.config = parse_config(reader.text(), display_name(path));
+  record.config = parse_config(reader.text(), name);
   validate(record.config);
   const auto get_members = [&](auto item, const auto& members) {
     for (const auto member : members) {
