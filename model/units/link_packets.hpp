@@ -9,6 +9,7 @@
 #include "halfspace/units/early_z.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
+#include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace {
 
@@ -27,6 +28,11 @@ struct ScreenTrianglePacket {
     visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kUnsigned);
   }
 };
+
+inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle) {
+  const std::array<ScreenVertex, 3>& v = triangle.v;
+  return {.x = {v[0].x, v[1].x, v[2].x}, .y = {v[0].y, v[1].y, v[2].y}, .z = {v[0].z, v[1].z, v[2].z}};
+}
 
 /// All that the units know of a draw.
 struct DrawStatePacket {
@@ -93,6 +99,28 @@ struct SetupTrianglePacket {
   }
 };
 
+/// `tile_size` in pixels.
+inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const WalkerConfig& walker,
+                                     int tile_size) {
+  const PixelRect& bounds = triangle.bounds;
+  const bool one_tile = bounds.x_first / tile_size == bounds.x_last / tile_size &&
+                        bounds.y_first / tile_size == bounds.y_last / tile_size;
+  const int square = walker.block_level && !one_tile ? walker.block_size : tile_size;
+  const std::int64_t x = bounds.x_first / square * square;
+  const std::int64_t y = bounds.y_first / square * square;
+  SetupTrianglePacket packet{.x_first = static_cast<std::uint16_t>(bounds.x_first),
+                             .x_last = static_cast<std::uint16_t>(bounds.x_last),
+                             .y_first = static_cast<std::uint16_t>(bounds.y_first),
+                             .y_last = static_cast<std::uint16_t>(bounds.y_last)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge& edge = triangle.edge[i];
+    packet.e[i] = edge.c + ((edge.a * x + edge.b * y) << walker.sub_pixel_bits);
+    packet.a[i] = edge.a;
+    packet.b[i] = edge.b;
+  }
+  return packet;
+}
+
 /// What early_z needs of a triangle, for the barycentric interpolator. Index 0 of a and b is edge 1.
 struct DepthEquationPacket {
   std::array<std::int32_t, 2> a{};
@@ -119,6 +147,23 @@ struct DepthEquationPacket {
     visit("max_code", &P::max_code, &Widths::CodeBits, Sign::kUnsigned);
   }
 };
+
+/// The barycentric equation of a triangle. Where the draw has no depth surface there is none: a, b and bias
+/// are the edges' all the same, everything else is 0.
+inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat format) {
+  const std::array<Edge, 3>& edge = triangle.edge;
+  const DepthEquation& depth = triangle.depth;
+  DepthEquationPacket packet{.a = {edge[1].a, edge[2].a}, .b = {edge[1].b, edge[2].b}, .bias = depth.bias};
+  if (format != DepthFormat::kNone) {
+    packet.z = depth.z;
+    packet.area2 = depth.area2;
+    packet.reciprocal = depth.reciprocal;
+    packet.shift = depth.shift;
+    packet.min_code = depth.min_code;
+    packet.max_code = depth.max_code;
+  }
+  return packet;
+}
 
 /// A beat of a burst: up to QuadWidth quads of one tile. Quads beyond the last have mask 0 and index 0.
 struct QuadBeat {

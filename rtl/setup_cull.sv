@@ -1,0 +1,227 @@
+// The cull stage of setup: from a snapped triangle to its verdict, turned to positive area.
+//
+// Three registers, one triangle a cycle: differences of the vertices; products of the area and extremes of the
+// coordinates; area of either sign and bounds. The verdict follows behind the third. Two multipliers of StepBits.
+
+module setup_cull
+  import raster_pkg::*;
+  import setup_pkg::*;
+(
+  input  logic             clk_i,
+  input  logic             rst_ni,
+
+  input  logic             valid_i,
+  input  screen_triangle_t triangle_i,
+  input  draw_state_t      state_i,
+
+  // Three cycles later.
+  output logic             valid_o,
+  output verdict_t         verdict_o
+);
+
+  // Of the vertex pairs (0, 1), (0, 2) and (1, 2): second less first.
+  typedef struct packed {
+    step_t d01;
+    step_t d02;
+    step_t d12;
+  } differences_t;
+
+  function automatic differences_t differences(coord_t [2:0] c);
+    return '{
+      d01: step_t'(c[1]) - step_t'(c[0]),
+      d02: step_t'(c[2]) - step_t'(c[0]),
+      d12: step_t'(c[2]) - step_t'(c[1])
+    };
+  endfunction
+
+  // Which of three is the least, from "1 before 0", "2 before 0" and "2 before 1".
+  function automatic logic [1:0] least(logic one_zero, logic two_zero, logic two_one);
+    return !one_zero && !two_zero ? 2'd0 : two_one ? 2'd2 : 2'd1;
+  endfunction
+
+  function automatic coord_t pick(coord_t [2:0] c, logic [1:0] index);
+    return index == 2'd0 ? c[0] : index == 2'd1 ? c[1] : c[2];
+  endfunction
+
+  function automatic coord_t smallest(coord_t [2:0] c, differences_t d);
+    return pick(c, least(d.d01[StepBits-1], d.d02[StepBits-1], d.d12[StepBits-1]));
+  endfunction
+
+  function automatic coord_t largest(coord_t [2:0] c, differences_t d);
+    return pick(c, least(!d.d01[StepBits-1], !d.d02[StepBits-1], !d.d12[StepBits-1]));
+  endfunction
+
+  // Whether the second vertex of a pair comes before the first: it is higher, or as high and further left.
+  function automatic logic before(step_t dx, step_t dy);
+    return dy[StepBits-1] || (dy == '0 && dx[StepBits-1]);
+  endfunction
+
+  // First register: differences.
+  typedef struct packed {
+    screen_triangle_t triangle;
+    draw_state_t      state;
+    differences_t     x;
+    differences_t     y;
+  } compared_t;
+
+  compared_t compared_d, compared_q;
+  logic      compared_valid;
+
+  assign compared_d = '{
+    triangle: triangle_i,
+    state:    state_i,
+    x:        differences(triangle_i.x),
+    y:        differences(triangle_i.y)
+  };
+
+  pipe_register #(
+    .Width ($bits(compared_t))
+  ) u_compared (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (valid_i),
+    .data_i  (compared_d),
+    .valid_o (compared_valid),
+    .data_o  (compared_q)
+  );
+
+  // Second register: the products, whose difference is twice the area, and the extremes. The area fits AreaBits and a
+  // sign, so bits of the products above that cannot matter.
+  typedef logic signed [AreaBits:0] signed_area_t;
+
+  typedef struct packed {
+    screen_triangle_t triangle;
+    draw_state_t      state;
+    logic [1:0]       first;
+    signed_area_t     plus;
+    signed_area_t     minus;
+    coord_t           x_min;
+    coord_t           x_max;
+    coord_t           y_min;
+    coord_t           y_max;
+  } product_t;
+
+  product_t product_d, product_q;
+  logic     product_valid;
+
+  assign product_d = '{
+    triangle: compared_q.triangle,
+    state:    compared_q.state,
+    first:    least(before(compared_q.x.d01, compared_q.y.d01), before(compared_q.x.d02, compared_q.y.d02),
+                    before(compared_q.x.d12, compared_q.y.d12)),
+    plus:     signed_area_t'(compared_q.x.d01) * signed_area_t'(compared_q.y.d02),
+    minus:    signed_area_t'(compared_q.x.d02) * signed_area_t'(compared_q.y.d01),
+    x_min:    smallest(compared_q.triangle.x, compared_q.x),
+    x_max:    largest(compared_q.triangle.x, compared_q.x),
+    y_min:    smallest(compared_q.triangle.y, compared_q.y),
+    y_max:    largest(compared_q.triangle.y, compared_q.y)
+  };
+
+  pipe_register #(
+    .Width ($bits(product_t))
+  ) u_product (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (compared_valid),
+    .data_i  (product_d),
+    .valid_o (product_valid),
+    .data_o  (product_q)
+  );
+
+  // Third register: the area and its negative, side by side so that its size needs no second carry chain, and the
+  // bounds, with a range beyond the screen.
+  localparam int unsigned ReachBits = StepBits - SubPixelBits;
+  localparam step_t Half = step_t'(1) <<< (SubPixelBits - 1);
+
+  typedef logic signed [ReachBits-1:0] reach_t;
+
+  typedef struct packed {
+    screen_triangle_t triangle;
+    draw_state_t      state;
+    logic [1:0]       first;
+    signed_area_t     area;
+    signed_area_t     negated;
+    reach_t           x_first;
+    reach_t           x_last;
+    reach_t           y_first;
+    reach_t           y_last;
+  } sized_t;
+
+  // The centre of pixel p is at p 2^SubPixelBits + Half: the first pixel rounds up, the last rounds down.
+  function automatic reach_t first_pixel(coord_t min, logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(min) + (Half - step_t'(1));
+    reach_t pixel = reach_t'(moved >>> SubPixelBits);
+    reach_t bound = reach_t'({1'b0, limit});
+    return pixel > bound ? pixel : bound;
+  endfunction
+
+  function automatic reach_t last_pixel(coord_t max, logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(max) - Half;
+    reach_t pixel = reach_t'(moved >>> SubPixelBits);
+    reach_t bound = reach_t'({1'b0, limit});
+    return pixel < bound ? pixel : bound;
+  endfunction
+
+  sized_t sized_d, sized_q;
+
+  assign sized_d = '{
+    triangle: product_q.triangle,
+    state:    product_q.state,
+    first:    product_q.first,
+    area:     product_q.plus - product_q.minus,
+    negated:  product_q.minus - product_q.plus,
+    x_first:  first_pixel(product_q.x_min, product_q.state.x_first),
+    x_last:   last_pixel(product_q.x_max, product_q.state.x_last),
+    y_first:  first_pixel(product_q.y_min, product_q.state.y_first),
+    y_last:   last_pixel(product_q.y_max, product_q.state.y_last)
+  };
+
+  pipe_register #(
+    .Width ($bits(sized_t))
+  ) u_sized (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (product_valid),
+    .data_i  (sized_d),
+    .valid_o (valid_o),
+    .data_o  (sized_q)
+  );
+
+  // The verdict. A bounding box without a pixel centre has no pixel in common with the screen either.
+  logic negative, front, culled, no_pixel;
+  assign negative = sized_q.area[AreaBits];
+  assign front    = negative != sized_q.state.front_positive_area;
+  assign culled   = front ? sized_q.state.cull_front : sized_q.state.cull_back;
+  assign no_pixel = sized_q.x_last < sized_q.x_first || sized_q.y_last < sized_q.y_first || sized_q.state.empty;
+
+  // Vertex that comes i-th. Negative area is turned by going round the other way.
+  function automatic logic [1:0] turned(logic [1:0] first, logic backwards, logic second);
+    logic [1:0] next = first == 2'd2 ? 2'd0 : first + 2'd1;
+    logic [1:0] previous = first == 2'd0 ? 2'd2 : first - 2'd1;
+    return second == backwards ? next : previous;
+  endfunction
+
+  logic [2:0] [1:0] order;
+  assign order[0] = sized_q.first;
+  assign order[1] = turned(sized_q.first, negative, 1'b0);
+  assign order[2] = turned(sized_q.first, negative, 1'b1);
+
+  always_comb begin
+    verdict_o.drawn  = sized_q.area != '0 && !culled && !no_pixel;
+    verdict_o.area2  = area_t'(negative ? sized_q.negated : sized_q.area);
+    verdict_o.state  = sized_q.state;
+    verdict_o.bounds = '{
+      x_first: sized_q.x_first[PixelBits-1:0],
+      x_last:  sized_q.x_last[PixelBits-1:0],
+      y_first: sized_q.y_first[PixelBits-1:0],
+      y_last:  sized_q.y_last[PixelBits-1:0]
+    };
+    for (int unsigned i = 0; i < 3; i++) begin
+      verdict_o.triangle.x[i] = pick(sized_q.triangle.x, order[i]);
+      verdict_o.triangle.y[i] = pick(sized_q.triangle.y, order[i]);
+      verdict_o.triangle.z[i] = order[i] == 2'd0 ? sized_q.triangle.z[0] :
+                                order[i] == 2'd1 ? sized_q.triangle.z[1] : sized_q.triangle.z[2];
+    end
+  end
+
+endmodule

@@ -1,0 +1,214 @@
+// Edge equations of a drawn triangle at the pixel where its walk starts, and the range of its depth codes.
+//
+// Three registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2. The
+// three unbiased E add up to 2A everywhere, which gives that of edge 0. Four multipliers of StepBits.
+
+module setup_edges
+  import raster_pkg::*;
+  import setup_pkg::*;
+#(
+  /// Pixels on a side of a block of the walk, 8, 16, 32 or 64, more than TileSize.
+  parameter int unsigned BlockSize = 32,
+  /// 1: a walk whose bounds do not fit one tile starts at a block; 0: at a tile.
+  parameter bit BlockLevel = 1'b1
+) (
+  input  logic                  clk_i,
+  input  logic                  rst_ni,
+
+  input  logic                  valid_i,
+  input  screen_triangle_t      triangle_i,
+  input  area_t                 area2_i,
+  input  bounds_t               bounds_i,
+  input  logic [FormatBits-1:0] format_i,
+  input  logic                  bottom_left_rule_i,
+
+  // Three cycles later.
+  output logic                  valid_o,
+  output edge_t [2:0]           e_o,
+  output step_t [2:0]           a_o,
+  output step_t [2:0]           b_o,
+  output logic [2:0]            bias_o,
+  output logic [CodeBits-1:0]   min_code_o,
+  output logic [CodeBits-1:0]   max_code_o
+);
+
+  typedef logic [VertexDepthBits-1:0] depth_t;
+  typedef logic [PixelBits-1:0] pixel_t;
+
+  // Where the walk starts.
+  localparam pixel_t InTile = pixel_t'(TileSize - 1);
+  localparam pixel_t InBlock = BlockLevel ? pixel_t'(BlockSize - 1) : InTile;
+
+  function automatic logic same_tile(pixel_t first, pixel_t last);
+    return ((first ^ last) & ~InTile) == '0;
+  endfunction
+
+  function automatic step_t centre(pixel_t pixel);
+    return step_t'({1'b0, pixel, 1'b1, {(SubPixelBits - 1){1'b0}}});
+  endfunction
+
+  pixel_t inside;
+  assign inside = same_tile(bounds_i.x_first, bounds_i.x_last) && same_tile(bounds_i.y_first, bounds_i.y_last) ?
+                  InTile : InBlock;
+
+  // The least and the greatest of the vertex depths.
+  depth_t z_least, z_most;
+
+  always_comb begin
+    z_least = triangle_i.z[0];
+    z_most  = triangle_i.z[0];
+    for (int unsigned i = 1; i < 3; i++) begin
+      z_least = triangle_i.z[i] < z_least ? triangle_i.z[i] : z_least;
+      z_most  = triangle_i.z[i] > z_most ? triangle_i.z[i] : z_most;
+    end
+  end
+
+  // First register. Vertex 0 lies on edge 1 and on edge 2, so both take the start relative to it.
+  typedef struct packed {
+    step_t [2:0]           a;
+    step_t [2:0]           b;
+    step_t                 x;
+    step_t                 y;
+    area_t                 area2;
+    logic [FormatBits-1:0] format;
+    logic                  bottom_left_rule;
+    depth_t                z_least;
+    depth_t                z_most;
+  } steps_t;
+
+  steps_t steps_d, steps_q;
+  logic   steps_valid;
+
+  always_comb begin
+    for (int unsigned i = 0; i < 3; i++) begin
+      steps_d.a[i] = step_t'(triangle_i.y[(i+1)%3]) - step_t'(triangle_i.y[(i+2)%3]);
+      steps_d.b[i] = step_t'(triangle_i.x[(i+2)%3]) - step_t'(triangle_i.x[(i+1)%3]);
+    end
+    steps_d.x                = centre(bounds_i.x_first & ~inside) - step_t'(triangle_i.x[0]);
+    steps_d.y                = centre(bounds_i.y_first & ~inside) - step_t'(triangle_i.y[0]);
+    steps_d.area2            = area2_i;
+    steps_d.format           = format_i;
+    steps_d.bottom_left_rule = bottom_left_rule_i;
+    steps_d.z_least          = z_least;
+    steps_d.z_most           = z_most;
+  end
+
+  pipe_register #(
+    .Width ($bits(steps_t))
+  ) u_steps (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (valid_i),
+    .data_i  (steps_d),
+    .valid_o (steps_valid),
+    .data_o  (steps_q)
+  );
+
+  // An edge that does not own the samples on it is lowered by 1.
+  function automatic logic lowered(step_t a, step_t b, logic bottom_left_rule);
+    logic left = !a[StepBits-1] && a != '0;
+    logic horizontal = a == '0;
+    logic owned_side = bottom_left_rule ? b[StepBits-1] : !b[StepBits-1] && b != '0;
+    return !(left || (horizontal && owned_side));
+  endfunction
+
+  // The stored code nearest to a vertex depth: one half of its unit is its first fraction bit.
+  function automatic logic [CodeBits-1:0] stored_code(logic [FormatBits-1:0] format, depth_t z);
+    unique case (format)
+      3'd1:    return CodeBits'(z[VertexDepthBits-1-:16]) + CodeBits'(z[VertexDepthBits-17]);
+      3'd2:    return CodeBits'(z[VertexDepthBits-1-:24]) + CodeBits'(z[VertexDepthBits-25]);
+      3'd4:    return CodeBits'(z);
+      default: return '0;
+    endcase
+  endfunction
+
+  // Second register.
+  typedef struct packed {
+    step_t [2:0]         a;
+    step_t [2:0]         b;
+    edge_t [1:0]         across;
+    edge_t [1:0]         down;
+    area_t               area2;
+    logic [2:0]          bias;
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+  } products_t;
+
+  products_t products_d, products_q;
+  logic      products_valid;
+
+  always_comb begin
+    products_d.a        = steps_q.a;
+    products_d.b        = steps_q.b;
+    products_d.area2    = steps_q.area2;
+    products_d.min_code = stored_code(steps_q.format, steps_q.z_least);
+    products_d.max_code = stored_code(steps_q.format, steps_q.z_most);
+    for (int unsigned i = 0; i < 2; i++) begin
+      products_d.across[i] = edge_t'(steps_q.a[i+1]) * edge_t'(steps_q.x);
+      products_d.down[i]   = edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
+    end
+    for (int unsigned i = 0; i < 3; i++) begin
+      products_d.bias[i] = lowered(steps_q.a[i], steps_q.b[i], steps_q.bottom_left_rule);
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(products_t))
+  ) u_products (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (steps_valid),
+    .data_i  (products_d),
+    .valid_o (products_valid),
+    .data_o  (products_q)
+  );
+
+  // Third register.
+  typedef struct packed {
+    step_t [2:0]         a;
+    step_t [2:0]         b;
+    edge_t [1:0]         e;
+    area_t               area2;
+    logic [2:0]          bias;
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+  } sums_t;
+
+  sums_t sums_d, sums_q;
+
+  always_comb begin
+    sums_d.a        = products_q.a;
+    sums_d.b        = products_q.b;
+    sums_d.area2    = products_q.area2;
+    sums_d.bias     = products_q.bias;
+    sums_d.min_code = products_q.min_code;
+    sums_d.max_code = products_q.max_code;
+    for (int unsigned i = 0; i < 2; i++) begin
+      sums_d.e[i] = edge_t'(products_q.across[i]) + edge_t'(products_q.down[i]);
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(sums_t))
+  ) u_sums (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (products_valid),
+    .data_i  (sums_d),
+    .valid_o (valid_o),
+    .data_o  (sums_q)
+  );
+
+  edge_t e0;
+  assign e0 = edge_t'({1'b0, sums_q.area2}) - sums_q.e[0] - sums_q.e[1];
+
+  assign e_o[0]     = e0 - edge_t'({1'b0, sums_q.bias[0]});
+  assign e_o[1]     = sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
+  assign e_o[2]     = sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
+  assign a_o        = sums_q.a;
+  assign b_o        = sums_q.b;
+  assign bias_o     = sums_q.bias;
+  assign min_code_o = sums_q.min_code;
+  assign max_code_o = sums_q.max_code;
+
+endmodule
