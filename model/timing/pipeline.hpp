@@ -116,6 +116,7 @@ class Pipeline {
 
   void tile(const TileJob& job, TileWork work) {
     steps_ += work == TileWork::kWholeByBlock ? 1 : 0;  // no decision came before it
+    emitted_ = true;
     if (record_jobs_) {
       observer_->tile_job(job);
     }
@@ -231,8 +232,9 @@ class Pipeline {
     }
     clock_.drawn();
     steps_ = 0;
-    const auto slot = static_cast<std::uint8_t>(stats_->setup.drawn);
-    tile_walker<TileSize>(triangle_, walker_, slot, *this);
+    emitted_ = false;
+    tile_walker<TileSize>(triangle_, walker_, slot_, *this);
+    slot_ = static_cast<std::uint8_t>(slot_ + (emitted_ ? 1 : 0));
     clock_.walked(steps_);
   }
 
@@ -353,6 +355,8 @@ class Pipeline {
   std::vector<ScreenTriangle> batch_;
   SetupTriangle triangle_;
   std::uint32_t steps_ = 0;  ///< of the walker since the last job
+  std::uint8_t slot_ = 0;    ///< of the triangle: the next after each that emitted a job
+  bool emitted_ = false;     ///< the triangle has a job
   TileCodes<TileSize> codes_{};
 };
 

@@ -69,7 +69,8 @@ struct SetupTriangle {
 
 /// tile_walker -> edge_evaluator: a tile that a triangle may touch.
 struct TileJob {
-  std::uint8_t slot = 0;     ///< where the triangle's depth equation and draw state are kept
+  std::uint8_t slot = 0;  ///< where the triangle's depth equation and draw state are kept: one more, modulo
+                          ///< 256, for each triangle that has a tile job
   std::uint16_t tile_x = 0;  ///< in tiles
   std::uint16_t tile_y = 0;
   std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in

@@ -261,7 +261,7 @@ template <int TileSize>
 void EarlyZ::test(PendingToken& token, TestedToken& tested) {
   DrawWork& work = *token.work;
   const QuadBurst& burst = token.burst.burst;
-  const SetupTriangle& triangle = token.burst.triangle->equations;
+  const SetupTriangle& triangle = *token.burst.triangle;
   const int parts = run_.config.z_parts;
   const std::size_t samples = static_cast<std::size_t>(TileSize * TileSize / parts);
   TileCodes<TileSize> stored{};

@@ -69,11 +69,7 @@ void Setup::decide() {
       }
       divider_free_ = at + interval;
       out->use_credit();
-      const auto slot = static_cast<std::uint8_t>(work->counters.setup.drawn);
-      out->put({.work = work,
-                .triangle = std::make_shared<const DrawnTriangle>(
-                    DrawnTriangle{.equations = equations, .slot = slot})},
-               at);
+      out->put({.work = work, .triangle = std::make_shared<const SetupTriangle>(equations)}, at);
     }
   });
 }

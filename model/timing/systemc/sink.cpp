@@ -53,7 +53,7 @@ void Sink::count_pixels(const TestedToken& token) {
   }
   if (work.keeps_visible) {
     const std::uint32_t shown =
-        work.is_clear() ? kNothingVisible : work.first_triangle + token.triangle->equations.triangle;
+        work.is_clear() ? kNothingVisible : work.first_triangle + token.triangle->triangle;
     std::uint32_t* const visible = surface.visible.tile(tile_x, tile_y);
     for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
       for (std::uint64_t left = token.passed.word[i]; left != 0; left &= left - 1) {
@@ -69,7 +69,7 @@ void Sink::show_quads(const TestedToken& token, Cycle first_beat) {
   std::uint64_t number = 0;
   for_each_quad<TileSize>(token.burst, [&](const Quad& quad) {
     QuadEvent event{.draw = work.draw,
-                    .triangle = token.triangle->equations.triangle,
+                    .triangle = token.triangle->triangle,
                     .surface = work.surface,
                     .x = static_cast<std::uint32_t>(token.burst.coverage.tile_x * TileSize + quad.x),
                     .y = static_cast<std::uint32_t>(token.burst.coverage.tile_y * TileSize + quad.y),

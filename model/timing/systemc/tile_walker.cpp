@@ -19,7 +19,10 @@ TileWalker::TileWalker(const sc_core::sc_module_name& name, RunState& run)
   set_stack_size(kStackBytes);
 }
 
-void TileWalker::begin_frame() { done_ = 0; }
+void TileWalker::begin_frame() {
+  done_ = 0;
+  slot_ = 0;
+}
 
 void TileWalker::walk() {
   run_.guard([&] {
@@ -36,10 +39,11 @@ void TileWalker::walk() {
 
       last_ = accept;
       steps_ = 0;
-      const DrawnTriangle& triangle = *triangle_.triangle;
+      emitted_ = false;
       with_tile_size(run_.config.tile_size, [&](auto size) {
-        halfspace::tile_walker<size()>(triangle.equations, config_, triangle.slot, *this);
+        halfspace::tile_walker<size()>(*triangle_.triangle, config_, slot_, *this);
       });
+      slot_ = static_cast<std::uint8_t>(slot_ + (emitted_ ? 1 : 0));
       done_ = last_ + steps_ * step_cycles_;
       meter_.busy(done_ + 1);
       run_.in_pipe.remove();
@@ -53,7 +57,7 @@ void TileWalker::decision(int x, int y, int size, TileVerdict verdict) {
   tally(work.counters.tile_walker, verdict, size != run_.config.tile_size);
   if (work.record_decisions) {
     run_.observer->decision({.draw = work.draw,
-                             .triangle = triangle_.triangle->equations.triangle,
+                             .triangle = triangle_.triangle->triangle,
                              .surface = work.surface,
                              .x = static_cast<std::uint32_t>(x),
                              .y = static_cast<std::uint32_t>(y),
@@ -75,6 +79,7 @@ void TileWalker::tile(const TileJob& job, TileWork tile_work) {
   meter_.busy(at + 1);
   last_ = at;
   steps_ = 0;
+  emitted_ = true;
   if (triangle_.work->record_jobs) {
     run_.observer->tile_job(job);
   }

@@ -35,6 +35,8 @@ class TileWalker : public sc_core::sc_module {
   Cycle last_ = 0;           ///< cycle of the last emission, or of the load
   std::uint32_t steps_ = 0;  ///< since then
   Cycle done_ = 0;           ///< last step of the triangle before
+  std::uint8_t slot_ = 0;    ///< of the triangle: the next after each that emitted a job
+  bool emitted_ = false;     ///< the triangle has a job
 };
 
 }  // namespace halfspace::systemc

@@ -14,11 +14,7 @@
 namespace halfspace::systemc {
 
 /// Kept as long as a token needs it; hardware has a table of them, of which TileJob::slot is the index.
-struct DrawnTriangle {
-  SetupTriangle equations;
-  std::uint8_t slot = 0;
-};
-using TrianglePointer = std::shared_ptr<const DrawnTriangle>;
+using TrianglePointer = std::shared_ptr<const SetupTriangle>;
 
 /// In the queue of setup.
 struct QueuedTriangle {
