@@ -119,9 +119,9 @@ std::string raster_pkg() {
     text += "// -D" + std::string(parameter.define) + "=" + std::string(parameter.legal) + "\n";
   }
   for (const Parameter& parameter : kParameters) {
-    const std::string define(parameter.define);
-    text += "\n`ifndef " + define + "\n`define " + define + " " + std::to_string(Widths{}.*parameter.member) +
-            "\n`endif";
+    text.append("\n`ifndef ").append(parameter.define);
+    text.append("\n`define ").append(parameter.define).append(" ");
+    text.append(std::to_string(Widths{}.*parameter.member)).append("\n`endif");
   }
   text += "\n\npackage raster_pkg;\n\n";
   for (const Parameter& parameter : kParameters) {

@@ -41,8 +41,8 @@ struct JobWork {
   int quads = 0;             ///< 0: no sample is covered, and nothing leaves the quad generator
   std::uint32_t tile_x = 0;  ///< in tiles, where touched is not 0
   std::uint32_t tile_y = 0;
-  std::uint8_t touched = 0;       ///< bit i: part i of the tile has to do with stored depth
-  std::uint8_t written = 0;       ///< bit i: some fragment wrote to part i
+  std::uint8_t touched = 0;         ///< bit i: part i of the tile has to do with stored depth
+  std::uint8_t written = 0;         ///< bit i: some fragment wrote to part i
   std::span<const ZMiss> misses{};  ///< the touched parts that the z cache did not have
 };
 

@@ -113,8 +113,8 @@ class ZTags {
     return {.hit = hit, .slot = found.slot};
   }
 
-  /// Forgets the lines `first` to `last` of memory, inclusive. Slots that become free are taken before any line
-  /// has to leave, the one used longest ago first.
+  /// Forgets the lines `first` to `last` of memory, inclusive. Slots that become free are taken before any
+  /// line has to leave, the one used longest ago first.
   void drop(std::uint32_t first, std::uint32_t last) {
     for (Entry& entry : entries_) {
       entry.line = entry.line >= first && entry.line <= last ? kNoZLine : entry.line;

@@ -7,8 +7,9 @@
 namespace halfspace {
 
 std::uint64_t fill_cycles(const Config& config) {
-  return static_cast<std::uint64_t>(kSetupCullLatency + kSetupDivideLatency + 1 + kWalkerLatency +
-                                    edge_latency(config) + kQuadLatency + kLookupLatency + kTestLatency);
+  const int cycles = kSetupCullLatency + kSetupDivideLatency + 1 + kWalkerLatency + edge_latency(config) +
+                     kQuadLatency + kLookupLatency + kTestLatency;
+  return static_cast<std::uint64_t>(cycles);
 }
 
 AnalyticDraw analytic_draw(const DrawWork& work, const Config& config) {

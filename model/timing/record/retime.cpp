@@ -83,6 +83,7 @@ std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
     std::vector<std::size_t> group;  // positions of what goes through in one pass
     const auto pass = [&] {
       std::vector<Config> machines;
+      machines.reserve(group.size());
       for (const std::size_t i : group) {
         machines.push_back(configs[i]);
       }
