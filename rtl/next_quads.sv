@@ -20,7 +20,7 @@ module next_quads #(
   typedef logic [Levels:0] count_t;
 
   // Of the bits up to i, i among them. Level n adds the sum of the block of 2^n below to each sum of an odd block.
-  count_t [Size-1:0] sum;
+  count_t sum [Size];
 
   always_comb begin
     for (int unsigned i = 0; i < Size; i++) begin
@@ -35,13 +35,25 @@ module next_quads #(
     end
   end
 
+  // Bit b of all sums together: a comparison is then one of vectors, which is the same gates and much less for a
+  // simulator.
+  logic [Levels:0][Size-1:0] sum_bits;
+
+  for (genvar i = 0; i < Size; i++) begin : gen_sum_bits
+    for (genvar b = 0; b <= Levels; b++) begin : gen_bit
+      assign sum_bits[b][i] = sum[i][b];
+    end
+  end
+
   // A bit of the set with rank n has sum n + 1.
   always_comb begin
-    for (int unsigned i = 0; i < Size; i++) begin
-      for (int unsigned n = 0; n < Picks; n++) begin
-        pick_o[n][i] = set_i[i] & (sum[i] == count_t'(n + 1));
+    rest_o = set_i;
+    for (int unsigned n = 0; n < Picks; n++) begin
+      pick_o[n] = set_i;
+      for (int unsigned b = 0; b <= Levels; b++) begin
+        pick_o[n] &= (((n + 1) >> b) & 1) == 1 ? sum_bits[b] : ~sum_bits[b];
       end
-      rest_o[i] = set_i[i] & (sum[i] > count_t'(Picks));
+      rest_o &= ~pick_o[n];
     end
   end
 

@@ -35,7 +35,7 @@ module quad_generator
   typedef logic [CountBits-1:0] count_t;
   typedef logic [$clog2(Beats+1)-1:0] beats_t;
   typedef logic [TileQuads-1:0] quads_t;
-  typedef logic [TileQuads-1:0][QuadMaskBits-1:0] samples_t;
+  typedef logic [QuadMaskBits-1:0][TileQuads-1:0] samples_t;  // sample by sample, of all quads
 
   // What all beats of a burst share.
   typedef struct packed {
@@ -73,10 +73,17 @@ module quad_generator
 
   for (genvar q = 0; q < TileQuads; q++) begin : gen_quad
     localparam int unsigned TopLeft = (q / RowQuads) * 2 * TileSize + (q % RowQuads) * 2;
-    assign coverage_samples[q] = {
-      coverage_i.mask[TopLeft+TileSize+:2], coverage_i.mask[TopLeft+:2]
-    };
-    assign coverage_quads[q]   = |coverage_samples[q];
+    assign coverage_samples[0][q] = coverage_i.mask[TopLeft];
+    assign coverage_samples[1][q] = coverage_i.mask[TopLeft+1];
+    assign coverage_samples[2][q] = coverage_i.mask[TopLeft+TileSize];
+    assign coverage_samples[3][q] = coverage_i.mask[TopLeft+TileSize+1];
+  end
+
+  always_comb begin
+    coverage_quads = '0;
+    for (int unsigned sample = 0; sample < QuadMaskBits; sample++) begin
+      coverage_quads |= coverage_samples[sample];
+    end
   end
 
   always_comb begin
@@ -119,14 +126,14 @@ module quad_generator
 
   assign coverage_ready_o = ready_q;
 
-  // Needs no reset: beats_q says whether it means anything.
+  // Needs no reset: beats_q says whether it means anything. Without a burst in work no quads are left.
   always_ff @(posedge clk_i) begin
     first_q <= accepted;
     if (accepted) begin
       quads_q   <= coverage_quads;
       samples_q <= coverage_samples;
       head_q    <= coverage_head;
-    end else if (beats_q != '0) begin
+    end else begin
       quads_q <= quads_rest;
     end
   end
@@ -144,14 +151,23 @@ module quad_generator
     .rest_o (quads_rest)
   );
 
+  // Of all quads of the tile, bit b of the index.
+  function automatic quads_t index_bit(int unsigned b);
+    quads_t bits;
+    for (int unsigned q = 0; q < TileQuads; q++) begin
+      bits[q] = ((q >> b) & 1) == 1;
+    end
+    return bits;
+  endfunction
+
   // Quads beyond the last are picked nowhere: index and mask 0.
-  always_comb begin
-    beat = '0;
-    for (int unsigned n = 0; n < QuadWidth; n++) begin
-      for (int unsigned q = 0; q < TileQuads; q++) begin
-        beat.index[n] |= QuadIndexBits'(q) & {QuadIndexBits{pick[n][q]}};
-        beat.mask[n]  |= samples_q[q] & {QuadMaskBits{pick[n][q]}};
-      end
+  for (genvar n = 0; n < QuadWidth; n++) begin : gen_place
+    for (genvar b = 0; b < QuadIndexBits; b++) begin : gen_index
+      localparam quads_t IndexBit = index_bit(b);
+      assign beat.index[n][b] = |(pick[n] & IndexBit);
+    end
+    for (genvar sample = 0; sample < QuadMaskBits; sample++) begin : gen_mask
+      assign beat.mask[n][sample] = |(pick[n] & samples_q[sample]);
     end
   end
 

@@ -66,7 +66,11 @@ module reciprocal_stage #(
   end
 
   logic [Found-1:0] quotient_d;
-  assign quotient_d = (quotient_q << 2) | Found'(digit);
+  assign quotient_d = Found'({quotient_q, digit});
+
+  // The stages before found fewer bits than this one holds.
+  logic unused_quotient;
+  assign unused_quotient = ^quotient_i;
 
   logic last;
 

@@ -52,7 +52,7 @@ module setup_cull
   endfunction
 
   // Whether the second vertex of a pair comes before the first: it is higher, or as high and further left.
-  function automatic logic before(step_t dx, step_t dy);
+  function automatic logic comes_before(step_t dx, step_t dy);
     return dy[StepBits-1] || (dy == '0 && dx[StepBits-1]);
   endfunction
 
@@ -107,8 +107,9 @@ module setup_cull
   assign product_d = '{
     triangle: compared_q.triangle,
     state:    compared_q.state,
-    first:    least(before(compared_q.x.d01, compared_q.y.d01), before(compared_q.x.d02, compared_q.y.d02),
-                    before(compared_q.x.d12, compared_q.y.d12)),
+    first:    least(comes_before(compared_q.x.d01, compared_q.y.d01),
+                    comes_before(compared_q.x.d02, compared_q.y.d02),
+                    comes_before(compared_q.x.d12, compared_q.y.d12)),
     plus:     signed_area_t'(compared_q.x.d01) * signed_area_t'(compared_q.y.d02),
     minus:    signed_area_t'(compared_q.x.d02) * signed_area_t'(compared_q.y.d01),
     x_min:    smallest(compared_q.triangle.x, compared_q.x),
@@ -192,7 +193,8 @@ module setup_cull
   assign negative = sized_q.area[AreaBits];
   assign front    = negative != sized_q.state.front_positive_area;
   assign culled   = front ? sized_q.state.cull_front : sized_q.state.cull_back;
-  assign no_pixel = sized_q.x_last < sized_q.x_first || sized_q.y_last < sized_q.y_first || sized_q.state.empty;
+  assign no_pixel = sized_q.x_last < sized_q.x_first || sized_q.y_last < sized_q.y_first ||
+                    sized_q.state.empty;
 
   // Vertex that comes i-th. Negative area is turned by going round the other way.
   function automatic logic [1:0] turned(logic [1:0] first, logic backwards, logic second);

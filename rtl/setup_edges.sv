@@ -47,9 +47,9 @@ module setup_edges
     return step_t'({1'b0, pixel, 1'b1, {(SubPixelBits - 1){1'b0}}});
   endfunction
 
-  pixel_t inside;
-  assign inside = same_tile(bounds_i.x_first, bounds_i.x_last) && same_tile(bounds_i.y_first, bounds_i.y_last) ?
-                  InTile : InBlock;
+  pixel_t below;
+  assign below = same_tile(bounds_i.x_first, bounds_i.x_last) &&
+                 same_tile(bounds_i.y_first, bounds_i.y_last) ? InTile : InBlock;
 
   // The least and the greatest of the vertex depths.
   depth_t z_least, z_most;
@@ -84,8 +84,8 @@ module setup_edges
       steps_d.a[i] = step_t'(triangle_i.y[(i+1)%3]) - step_t'(triangle_i.y[(i+2)%3]);
       steps_d.b[i] = step_t'(triangle_i.x[(i+2)%3]) - step_t'(triangle_i.x[(i+1)%3]);
     end
-    steps_d.x                = centre(bounds_i.x_first & ~inside) - step_t'(triangle_i.x[0]);
-    steps_d.y                = centre(bounds_i.y_first & ~inside) - step_t'(triangle_i.y[0]);
+    steps_d.x                = centre(bounds_i.x_first & ~below) - step_t'(triangle_i.x[0]);
+    steps_d.y                = centre(bounds_i.y_first & ~below) - step_t'(triangle_i.y[0]);
     steps_d.area2            = area2_i;
     steps_d.format           = format_i;
     steps_d.bottom_left_rule = bottom_left_rule_i;
@@ -114,12 +114,14 @@ module setup_edges
 
   // The stored code nearest to a vertex depth: one half of its unit is its first fraction bit.
   function automatic logic [CodeBits-1:0] stored_code(logic [FormatBits-1:0] format, depth_t z);
+    logic [CodeBits-1:0] code;
     unique case (format)
-      3'd1:    return CodeBits'(z[VertexDepthBits-1-:16]) + CodeBits'(z[VertexDepthBits-17]);
-      3'd2:    return CodeBits'(z[VertexDepthBits-1-:24]) + CodeBits'(z[VertexDepthBits-25]);
-      3'd4:    return CodeBits'(z);
-      default: return '0;
+      3'd1:    code = CodeBits'(z[VertexDepthBits-1-:16]) + CodeBits'(z[VertexDepthBits-17]);
+      3'd2:    code = CodeBits'(z[VertexDepthBits-1-:24]) + CodeBits'(z[VertexDepthBits-25]);
+      3'd4:    code = CodeBits'(z);
+      default: code = '0;
     endcase
+    return code;
   endfunction
 
   // Second register.

@@ -11,9 +11,8 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr std::uint64_t kMaxResetCycles = 4;     // one must do; more must not hurt
-constexpr std::uint64_t kDrainCycles = 64;       // what the sink waits for packets that nobody expects
-constexpr std::uint64_t kDeadlockCycles = 2000;  // longer than any stall profile holds a link
+constexpr std::uint64_t kMaxResetCycles = 4;  // one must do; more must not hurt
+constexpr std::uint64_t kDrainCycles = 64;    // what the sink waits for packets that nobody expects
 // Independent seeds from one; the words are arbitrary.
 constexpr std::uint64_t kIdleSeed = 0x1d1e;
 constexpr std::uint64_t kStallSeed = 0x57a11;
@@ -78,6 +77,7 @@ class Bench {
     if (unit_timing_) {
       unit_timing_->clear();
     }
+    stimulus_.reset();
     monitor_.clear();
   }
 
@@ -130,8 +130,8 @@ class Bench {
       fail(scoreboard_.receive(cycle_, shim_.payload()));
     }
     if (options_.checks.timing && unit_timing_) {
-      fail(unit_timing_->cycle(
-          {cycle_, offered_, dut_.input_ready(), input_, shim_.valid(), sink_ready, shim_.payload()}));
+      fail(unit_timing_->cycle({cycle_, offered_, dut_.input_ready(), input_, shim_.valid(), sink_ready,
+                                shim_.payload(), dut_.side_outputs()}));
     } else if (options_.checks.timing) {
       fail(timing_.cycle(cycle_, offered_, dut_.input_ready(), shim_.valid(), sink_ready));
     }
@@ -160,7 +160,7 @@ class Bench {
 
   void watch_for_deadlock(bool moved) {
     idle_cycles_ = moved || quiet_ > 0 ? 0 : idle_cycles_ + 1;
-    if (idle_cycles_ < kDeadlockCycles) {
+    if (idle_cycles_ < shape_.deadlock_cycles) {
       return;
     }
     if (source_empty_ && !offered_ && !dut_.output_valid()) {
@@ -170,7 +170,7 @@ class Bench {
             fmt::format(
                 "nothing moved for {} cycles: input valid {:d} ready {:d}, output valid {:d} ready {:d}, {} "
                 "packets received, {} outstanding",
-                kDeadlockCycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
+                shape_.deadlock_cycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
                 scoreboard_.received(), scoreboard_.outstanding())});
     }
   }

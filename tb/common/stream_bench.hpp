@@ -31,6 +31,8 @@ class Stimulus {
   virtual bool next(std::span<std::uint32_t> packet) = 0;
   /// Queues what the unit's C++ definition makes of a packet.
   virtual void reference(std::span<const std::uint32_t> packet, Scoreboard& scoreboard) = 0;
+  /// A reset of the unit: what it remembers of the packets before is lost.
+  virtual void reset() {}
 };
 
 /// The links of the unit and its cycle table (docs/units).
@@ -40,7 +42,10 @@ struct UnitShape {
   int latency = 0;   ///< cycles from a packet's acceptance until its result is valid
   int capacity = 0;  ///< credits
   /// For a unit whose cycle table latency and capacity do not tell; the checker of a run.
-  std::function<std::unique_ptr<UnitTiming>()> timing;
+  std::function<std::unique_ptr<UnitTiming>()> timing = nullptr;
+  /// Cycles without a packet on any link that mean a deadlock: longer than any stall profile holds a link,
+  /// and than the unit may work in silence.
+  std::uint64_t deadlock_cycles = 2000;
 };
 
 /// Which of the checkers may end the run. Must-fail cases leave out those that would see their fault first.

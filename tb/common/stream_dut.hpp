@@ -26,6 +26,8 @@ class StreamDut {
   [[nodiscard]] virtual bool input_ready() const = 0;
   [[nodiscard]] virtual bool output_valid() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> output_payload() const = 0;
+  /// Outputs that belong to no link with a handshake, in an order of the unit's own: for its UnitTiming.
+  [[nodiscard]] virtual std::span<const std::uint32_t> side_outputs() { return {}; }
 
   /// True once an assertion of the RTL has failed; its message is on standard output.
   [[nodiscard]] virtual bool assertion_failed() const = 0;

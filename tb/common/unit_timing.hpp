@@ -18,6 +18,7 @@ struct UnitPins {
   bool out_valid = false;
   bool out_ready = false;
   std::span<const std::uint32_t> output;
+  std::span<const std::uint32_t> side;  ///< StreamDut::side_outputs()
 };
 
 class UnitTiming {

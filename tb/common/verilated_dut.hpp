@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "stream_dut.hpp"
 
@@ -27,7 +28,9 @@ std::span<const std::uint32_t> from_port(const VlWide<N>& port) {
   return {&port[0], N};
 }
 
-/// Pins<Model>: static accessors job(model), job_valid(model) and so on; see tb/edge_evaluator.
+/// Pins<Model>: static accessors job(model), job_valid(model) and so on; see tb/edge_evaluator. A link of
+/// several ports has set_input_payload() in place of input_payload(); outputs that belong to no link:
+/// side_outputs().
 template <class Model, class Pins>
 class VerilatedDut final : public StreamDut {
  public:
@@ -53,7 +56,11 @@ class VerilatedDut final : public StreamDut {
   void set_reset(bool active) override { model_->rst_ni = active ? 0 : 1; }
   void set_input(bool valid, std::span<const std::uint32_t> payload) override {
     Pins::input_valid(*model_) = valid ? 1 : 0;
-    to_port(payload, Pins::input_payload(*model_));
+    if constexpr (requires { Pins::set_input_payload(*model_, payload); }) {
+      Pins::set_input_payload(*model_, payload);
+    } else {
+      to_port(payload, Pins::input_payload(*model_));
+    }
   }
   void set_output_ready(bool ready) override { Pins::output_ready(*model_) = ready ? 1 : 0; }
 
@@ -72,6 +79,13 @@ class VerilatedDut final : public StreamDut {
   [[nodiscard]] bool output_valid() const override { return Pins::output_valid(*model_) != 0; }
   [[nodiscard]] std::span<const std::uint32_t> output_payload() const override {
     return from_port(Pins::output_payload(*model_));
+  }
+  [[nodiscard]] std::span<const std::uint32_t> side_outputs() override {
+    if constexpr (requires { Pins::side_outputs(*model_, side_); }) {
+      side_.clear();
+      Pins::side_outputs(*model_, side_);
+    }
+    return side_;
   }
   [[nodiscard]] bool assertion_failed() const override { return context_.gotError(); }
 
@@ -93,6 +107,7 @@ class VerilatedDut final : public StreamDut {
   VerilatedContext context_;
   std::unique_ptr<Model> model_;
   std::unique_ptr<VerilatedFstC> trace_;
+  std::vector<std::uint32_t> side_;
 };
 
 }  // namespace halfspace::tb

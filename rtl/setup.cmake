@@ -1,0 +1,24 @@
+# setup: its sources in the order of their dependencies, lint.
+set(setup_sources raster_pkg setup_pkg credit_fifo pipe_register setup_cull setup_edges reciprocal_stage reciprocal
+    setup)
+list(TRANSFORM setup_sources PREPEND ${rtl_dir}/)
+list(TRANSFORM setup_sources APPEND .sv)
+list(PREPEND setup_sources ${rtl_dir}/raster_pkg.vlt)
+add_library(rtl_setup INTERFACE)
+set_target_properties(rtl_setup PROPERTIES SV_SOURCES "${setup_sources}")
+
+foreach(sub_pixel_bits RANGE 4 8)
+  foreach(configuration "4;1;8;1" "8;2;32;0" "8;4;16;1" "16;8;64;1" "8;16;32;1")
+    list(GET configuration 0 tile_size)
+    list(GET configuration 1 interval)
+    list(GET configuration 2 block_size)
+    list(GET configuration 3 block_level)
+    set(test "lint: setup t${tile_size}_s${sub_pixel_bits}_i${interval}")
+    add_test(NAME ${test}
+             COMMAND ${VERILATOR_BIN} --lint-only -Wall --assert --top-module setup
+                     -DHALFSPACE_TILE_SIZE=${tile_size} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits}
+                     -GInterval=${interval} -GBlockSize=${block_size} -GBlockLevel=1'b${block_level} ${setup_sources}
+                     ${rtl_dir}/handshake_checker.sv ${PROJECT_SOURCE_DIR}/tb/setup/setup_bind.sv)
+    set_tests_properties(${test} PROPERTIES LABELS lint)
+  endforeach()
+endforeach()

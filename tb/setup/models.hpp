@@ -1,0 +1,34 @@
+/// The verilated configurations of setup that this build has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/stream_dut.hpp"
+#include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/tile_walker.hpp"
+
+namespace halfspace::tb {
+
+struct SetupModel {
+  DutModel dut;
+  int queue = 8;
+  int fifo = 24;
+  int interval = 1;
+  int block_size = 32;
+  bool block_level = true;
+
+  [[nodiscard]] Widths widths() const {
+    return {.SubPixelBits = dut.sub_pixel_bits, .TileSize = dut.tile_size};
+  }
+  [[nodiscard]] WalkerConfig walker() const {
+    return {.sub_pixel_bits = dut.sub_pixel_bits, .block_size = block_size, .block_level = block_level};
+  }
+};
+
+[[nodiscard]] const std::vector<SetupModel>& setup_models();
+
+/// The model of that name, which must exist.
+[[nodiscard]] const SetupModel& setup_model(const std::string& name);
+
+}  // namespace halfspace::tb
