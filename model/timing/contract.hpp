@@ -14,8 +14,8 @@ inline constexpr int kSetupCullLatency = 4;
 inline constexpr int kSetupDivideLatency = 18;
 inline constexpr int kWalkerLatency = 2;
 inline constexpr int kQuadLatency = 2;
-inline constexpr int kLookupLatency = 2;
-inline constexpr int kTestLatency = 12;
+inline constexpr int kLookupLatency = 12;
+inline constexpr int kTestLatency = 2;
 
 /// Of the edge evaluator: its pipeline and the output register.
 inline int edge_latency(const Config& config) { return config.edge_pipe_stages + 1; }
