@@ -14,12 +14,13 @@ module corner_test
   /// 1: squares inside the edge are found; 0: no square is accepted.
   parameter bit TrivialAccept = 1'b1
 ) (
-  input  logic signed [PixelEdgeBits-1:0] edge_i,       // at the top left sample of the square
-  input  logic signed [CornerBits-1:0]    to_largest_i, // from there to the sample where the edge value is largest
+  // The edge value at the top left sample of the square, and from there to where it is largest and
+  // least.
+  input  logic signed [PixelEdgeBits-1:0] edge_i,
+  input  logic signed [CornerBits-1:0]    to_largest_i,
   input  logic signed [CornerBits-1:0]    to_least_i,
-  input  logic                            known_i,      // all samples are inside, so nothing is left to test
-  output logic                            reject_o,     // all samples are outside
-  output logic                            accept_o      // all samples are inside
+  output logic                            reject_o, // all samples are outside
+  output logic                            accept_o  // all samples are inside
 );
 
   typedef logic signed [PixelEdgeBits-1:0] pixel_edge_t;
@@ -28,7 +29,7 @@ module corner_test
   assign all_outside = edge_i + pixel_edge_t'(to_largest_i) < $signed(PixelEdgeBits'(0));
   assign all_inside  = edge_i + pixel_edge_t'(to_least_i) >= $signed(PixelEdgeBits'(0));
 
-  assign reject_o = TrivialReject & all_outside & ~known_i;
-  assign accept_o = (TrivialAccept & all_inside) | known_i;
+  assign reject_o = TrivialReject & all_outside;
+  assign accept_o = TrivialAccept & all_inside;
 
 endmodule

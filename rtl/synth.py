@@ -26,6 +26,15 @@ SOURCES = {
         "half_plane",
         "edge_evaluator",
     ],
+    "tile_walker": [
+        "raster_pkg",
+        "credit_fifo",
+        "pipe_register",
+        "corner_test",
+        "walk_edge",
+        "walk_position",
+        "tile_walker",
+    ],
 }
 CONFIGURATIONS = [(4, 8), (4, 4), (8, 8), (8, 5), (16, 8), (16, 7)]
 FORBIDDEN = ["$mul", "$div", "$mod", "$dlatch", "$adlatch", "$dlatchsr"]

@@ -2,9 +2,9 @@
 // cycles.
 //
 // A square is rejected when all its samples are outside one edge. A tile that is not rejected becomes a tile job; the
-// edges that all its samples are inside have their accept bit. A block that is not rejected is entered, and what it
-// knows of an edge holds for its tiles: so the tiles of a block that is inside all edges are given out one by one
-// without a test of their own.
+// edges that all its samples are inside have their accept bit. A block that is not rejected is entered. One that is
+// accepted needs no memory of it: an edge that it is inside of is found again by the test of each of its tiles, whose
+// samples are among its own.
 //
 // A step that gives out a job waits in its last cycle for a slot of the output FIFO, so nothing stalls behind it. The
 // next triangle is loaded in the cycle of the last step of this one.
@@ -17,7 +17,7 @@ module tile_walker
   parameter int unsigned FifoDepth = 16,
   /// Pixels on a side of a block: 8, 16, 32 or 64, more than TileSize. Sets the widths of a few adders only.
   parameter int unsigned BlockSize = 32,
-  /// 0: no blocks, every tile of the bounds is decided. Saves a third of the edge registers.
+  /// 0: no blocks, every tile of the bounds is decided. Saves a third of the gates.
   parameter bit BlockLevel = 1'b1,
   /// 0: nothing is rejected, so that every tile of the bounds becomes a job.
   parameter bit TrivialReject = 1'b1,
@@ -93,7 +93,6 @@ module tile_walker
     .y_last_o       (job_d.y_last)
   );
 
-  logic [EdgeCount-1:0] known_q;  // edges that the block is inside of
   logic [EdgeCount-1:0] outside;
 
   for (genvar i = 0; i < EdgeCount; i++) begin : gen_edge
@@ -116,7 +115,6 @@ module tile_walker
       .leave_i        (leave),
       .first_column_i (first_column),
       .first_row_i    (first_row),
-      .known_i        (known_q[i]),
       .edge_o         (job_d.e[i]),
       .a_o            (job_d.a[i]),
       .b_o            (job_d.b[i]),
@@ -150,16 +148,6 @@ module tile_walker
       busy_q  <= load | (busy_q & ~done);
       idle_q  <= ~load & (~busy_q | done);
       phase_q <= load || advance ? '0 : last_phase ? phase_q : phase_q + phase_t'(1);
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (load) begin
-      known_q <= '0;
-    end else if (advance && enter) begin
-      known_q <= job_d.accept;
-    end else if (advance && leave) begin
-      known_q <= '0;
     end
   end
 

@@ -33,7 +33,6 @@ module walk_edge
   input  logic                leave_i,        // of a tile: it is the last of its block
   input  logic                first_column_i, // the block is in the first column of blocks
   input  logic                first_row_i,
-  input  logic                known_i,
 
   output edge_t               edge_o,
   output step_t               a_o,
@@ -44,12 +43,12 @@ module walk_edge
 
   localparam int unsigned SumBits = StepBits + 1;
   localparam int unsigned CornerBits = SumBits + BlockLog2;
-  localparam int unsigned OffsetBits = StepBits + BlockLog2;
+  localparam int unsigned SkippedBits = StepBits + SkipBits;
 
   typedef logic signed [PixelEdgeBits-1:0] pixel_edge_t;
   typedef logic signed [SumBits-1:0] sum_t;
   typedef logic signed [CornerBits-1:0] corner_t;
-  typedef logic signed [OffsetBits-1:0] offset_t;
+  typedef logic signed [SkippedBits-1:0] skipped_t;
 
   step_t a_q, b_q;
   logic [SubPixelBits-1:0] sub_pixel_q;
@@ -65,18 +64,18 @@ module walk_edge
   assign rising  = (a_falls ? sum_t'(0) : sum_t'(a_i)) + (b_falls ? sum_t'(0) : sum_t'(b_i));
   assign falling = (a_falls ? sum_t'(a_i) : sum_t'(0)) + (b_falls ? sum_t'(b_i) : sum_t'(0));
 
-  // From the first sample of the first block to its first tile in the bounds.
-  offset_t skip_x_d, skip_y_d, skip_x_q, skip_y_q;
+  // What lies between the first block's top left sample and its first tile in the bounds, in steps of a tile.
+  skipped_t skip_x_d, skip_y_d, skip_x_q, skip_y_q;
 
   always_comb begin
     skip_x_d = '0;
     skip_y_d = '0;
     for (int unsigned i = 0; i < SkipBits; i++) begin
       if (skip_columns_i[i]) begin
-        skip_x_d = skip_x_d + (offset_t'(a_i) <<< (TileLog2 + i));
+        skip_x_d = skip_x_d + (skipped_t'(a_i) <<< i);
       end
       if (skip_rows_i[i]) begin
-        skip_y_d = skip_y_d + (offset_t'(b_i) <<< (TileLog2 + i));
+        skip_y_d = skip_y_d + (skipped_t'(b_i) <<< i);
       end
     end
   end
@@ -98,7 +97,7 @@ module walk_edge
   // The value at the square that is decided, at the first tile of its row, at the first block of the row of blocks,
   // and at the block that comes after the tiles of this one.
   pixel_edge_t here_q, tile_row_q, block_row_q, resume_q;
-  pixel_edge_t loaded, along, down, next, entry;
+  pixel_edge_t loaded, along, down, next, entry, skip_x, skip_y;
 
   assign loaded = edge_i[EdgeBits-1:SubPixelBits];
   assign along  = here_q + (at_block_i ? pixel_edge_t'(a_q) <<< BlockLog2
@@ -106,8 +105,9 @@ module walk_edge
   assign down   = at_block_i ? block_row_q + (pixel_edge_t'(b_q) <<< BlockLog2)
                              : tile_row_q + (pixel_edge_t'(b_q) <<< TileLog2);
   assign next   = row_end_i ? down : along;
-  assign entry  = here_q + (first_column_i ? pixel_edge_t'(skip_x_q) : pixel_edge_t'(0))
-                         + (first_row_i ? pixel_edge_t'(skip_y_q) : pixel_edge_t'(0));
+  assign skip_x = first_column_i ? pixel_edge_t'(skip_x_q) <<< TileLog2 : '0;
+  assign skip_y = first_row_i ? pixel_edge_t'(skip_y_q) <<< TileLog2 : '0;
+  assign entry  = here_q + skip_x + skip_y;
 
   always_ff @(posedge clk_i) begin
     if (load_i) begin
@@ -139,7 +139,6 @@ module walk_edge
     .edge_i       (here_q),
     .to_largest_i (at_block_i ? largest_in_block_q : largest_in_tile_q),
     .to_least_i   (at_block_i ? least_in_block_q : least_in_tile_q),
-    .known_i      (known_i),
     .reject_o     (reject_o),
     .accept_o     (accept_o)
   );

@@ -53,68 +53,91 @@ module walk_position
     logic [SkipBits-1:0] tile; // in the block
   } in_block_t;
 
-  // Bounds, in tiles and in the pixels of the first and last tile.
-  tile_coord_t x_first_q, x_last_q, y_first_q, y_last_q;
-  pixel_t      x_first_pixel_q, x_last_pixel_q, y_first_pixel_q, y_last_pixel_q;
-  logic        one_tile;
+  // Bounds, as they come and as they are kept.
+  in_tile_t x_first, x_last, y_first, y_last;
+  in_tile_t x_first_q, x_last_q, y_first_q, y_last_q;
+  logic     one_tile;
 
-  assign one_tile = tile_of(x_first_i) == tile_of(x_last_i) &&
-                    tile_of(y_first_i) == tile_of(y_last_i);
+  assign x_first  = x_first_i;
+  assign x_last   = x_last_i;
+  assign y_first  = y_first_i;
+  assign y_last   = y_last_i;
+  assign one_tile = x_first.tile == x_last.tile && y_first.tile == y_last.tile;
 
+  // The walk has blocks, and is at one; which block, which tile.
   logic         with_blocks_q, at_block_q;
+  logic         with_blocks, at_block;
   block_coord_t block_x_q, block_y_q;
   tile_coord_t  tile_x_q, tile_y_q;
 
-  // The block's place among the blocks, and its tiles in the bounds.
-  logic        block_row_end, last_column, last_row;
-  tile_coord_t column_first, column_last, row_first, row_last;
+  // Without blocks these are constants, for synthesis to see.
+  assign with_blocks = BlockLevel & with_blocks_q;
+  assign at_block    = BlockLevel & at_block_q;
 
-  assign first_column_o = block_x_q == block_of(x_first_q);
-  assign first_row_o    = block_y_q == block_of(y_first_q);
-  assign last_column    = block_x_q == block_of(x_last_q);
-  assign last_row       = block_y_q == block_of(y_last_q);
-  assign block_row_end  = last_column;
-  assign last_block_o   = ~with_blocks_q | (last_column & last_row);
+  // The block's place among the blocks of the bounds.
+  in_block_t from_x, from_y, to_x, to_y;
+  logic      last_column, last_row;
 
-  assign column_first = with_blocks_q && !first_column_o ? {block_x_q, SkipBits'(0)} : x_first_q;
-  assign row_first    = with_blocks_q && !first_row_o ? {block_y_q, SkipBits'(0)} : y_first_q;
-  assign column_last  = with_blocks_q && !last_column ? {block_x_q, {SkipBits{1'b1}}} : x_last_q;
-  assign row_last     = with_blocks_q && !last_row ? {block_y_q, {SkipBits{1'b1}}} : y_last_q;
+  assign from_x         = x_first_q.tile;
+  assign from_y         = y_first_q.tile;
+  assign to_x           = x_last_q.tile;
+  assign to_y           = y_last_q.tile;
+  assign first_column_o = block_x_q == from_x.block;
+  assign first_row_o    = block_y_q == from_y.block;
+  assign last_column    = block_x_q == to_x.block;
+  assign last_row       = block_y_q == to_y.block;
+  assign last_block_o   = ~with_blocks | (last_column & last_row);
+
+  // Its tiles that are in the bounds.
+  in_block_t column_first, column_last, row_first, row_last;
+
+  assign column_first = '{
+    block: with_blocks ? block_x_q : from_x.block,
+    tile:  with_blocks && !first_column_o ? '0 : from_x.tile
+  };
+  assign row_first = '{
+    block: with_blocks ? block_y_q : from_y.block,
+    tile:  with_blocks && !first_row_o ? '0 : from_y.tile
+  };
+  assign column_last = '{
+    block: with_blocks ? block_x_q : to_x.block,
+    tile:  with_blocks && !last_column ? '1 : to_x.tile
+  };
+  assign row_last = '{
+    block: with_blocks ? block_y_q : to_y.block,
+    tile:  with_blocks && !last_row ? '1 : to_y.tile
+  };
 
   logic tile_row_end;
   assign tile_row_end = tile_x_q == column_last;
   assign last_tile_o  = tile_row_end && tile_y_q == row_last;
 
-  assign at_block_o = at_block_q;
-  assign row_end_o  = at_block_q ? block_row_end : tile_row_end;
-  assign leave_o    = with_blocks_q & last_tile_o;
+  assign at_block_o = at_block;
+  assign row_end_o  = at_block ? last_column : tile_row_end;
+  assign leave_o    = with_blocks & last_tile_o;
 
   logic next_block;  // the square after this one is another block
-  assign next_block = at_block_q ? ~enter_i : leave_o;
+  assign next_block = at_block ? ~enter_i : leave_o;
 
   always_ff @(posedge clk_i) begin
     if (load_i) begin
-      x_first_q       <= tile_of(x_first_i);
-      x_last_q        <= tile_of(x_last_i);
-      y_first_q       <= tile_of(y_first_i);
-      y_last_q        <= tile_of(y_last_i);
-      x_first_pixel_q <= x_first_i[TileLog2-1:0];
-      x_last_pixel_q  <= x_last_i[TileLog2-1:0];
-      y_first_pixel_q <= y_first_i[TileLog2-1:0];
-      y_last_pixel_q  <= y_last_i[TileLog2-1:0];
-      with_blocks_q   <= BlockLevel & ~one_tile;
-      at_block_q      <= BlockLevel & ~one_tile;
-      block_x_q       <= block_of(tile_of(x_first_i));
-      block_y_q       <= block_of(tile_of(y_first_i));
-      tile_x_q        <= tile_of(x_first_i);
-      tile_y_q        <= tile_of(y_first_i);
+      x_first_q     <= x_first;
+      x_last_q      <= x_last;
+      y_first_q     <= y_first;
+      y_last_q      <= y_last;
+      with_blocks_q <= ~one_tile;
+      at_block_q    <= ~one_tile;
+      block_x_q     <= x_first_i[PixelBits-1:BlockLog2];
+      block_y_q     <= y_first_i[PixelBits-1:BlockLog2];
+      tile_x_q      <= x_first.tile;
+      tile_y_q      <= y_first.tile;
     end else if (advance_i && next_block) begin
       at_block_q <= 1'b1;
-      block_x_q  <= block_row_end ? block_of(x_first_q) : block_x_q + block_coord_t'(1);
-      if (block_row_end) begin
+      block_x_q  <= last_column ? from_x.block : block_x_q + block_coord_t'(1);
+      if (last_column) begin
         block_y_q <= block_y_q + block_coord_t'(1);
       end
-    end else if (advance_i && at_block_q) begin
+    end else if (advance_i && at_block) begin
       at_block_q <= 1'b0;
       tile_x_q   <= column_first;
       tile_y_q   <= row_first;
@@ -128,9 +151,9 @@ module walk_position
 
   assign tile_x_o  = tile_x_q;
   assign tile_y_o  = tile_y_q;
-  assign x_first_o = tile_x_q == x_first_q ? x_first_pixel_q : '0;
-  assign x_last_o  = tile_x_q == x_last_q ? x_last_pixel_q : '1;
-  assign y_first_o = tile_y_q == y_first_q ? y_first_pixel_q : '0;
-  assign y_last_o  = tile_y_q == y_last_q ? y_last_pixel_q : '1;
+  assign x_first_o = tile_x_q == x_first_q.tile ? x_first_q.pixel : '0;
+  assign x_last_o  = tile_x_q == x_last_q.tile ? x_last_q.pixel : '1;
+  assign y_first_o = tile_y_q == y_first_q.tile ? y_first_q.pixel : '0;
+  assign y_last_o  = tile_y_q == y_last_q.tile ? y_last_q.pixel : '1;
 
 endmodule

@@ -1,0 +1,534 @@
+// Depth test of the quads of a tile, in front of the fragment shader: lookup of their lines in the z cache,
+// interpolation, test and write.
+//
+// Three units in a row. z_lookup takes the beats of a burst and asks memory for what the cache lacks. depth_interpolator
+// computes depth while memory answers. z_test compares and writes where all is there. Between them are the pending
+// store and a FIFO with credits, so neither the lookup nor the interpolator ever stalls in mid-pipe.
+//
+// The first beat of a burst is taken in cycle f, tested not before f + 12, and leaves 2 cycles after its test.
+
+module early_z
+  import raster_pkg::*;
+#(
+  /// Bursts between the lookup and the end of their test, 2 or more.
+  parameter int unsigned PendingDepth = 32,
+  /// Bursts in the output FIFO, 2 or more: a tile's worth of beats each.
+  parameter int unsigned FifoDepth = 16,
+  /// Lines of the z cache, a power of two, at least ZParts * Ways.
+  parameter int unsigned Lines = 128,
+  /// Lines of a set: a power of two.
+  parameter int unsigned Ways = 4,
+  /// Fill buffers, ZParts or more: a line each.
+  parameter int unsigned MissesInFlight = 16,
+  /// Lines on their way to memory, ZParts or more.
+  parameter int unsigned WriteBuffers = 4,
+  /// Bytes that memory reads in a cycle: a power of two.
+  parameter int unsigned ReadBytes = 64,
+  /// Bytes that memory writes in a cycle: a power of two.
+  parameter int unsigned WriteBytes = 64,
+  /// Tiles that a clear marks in a cycle: a power of two.
+  parameter int unsigned ClearTiles = 64,
+  /// Tiles of all surfaces, 2 or more: a bit each for each part.
+  parameter int unsigned MemoryTiles = 1024,
+  localparam int unsigned TileBits = $clog2(MemoryTiles),
+  localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
+  localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
+  localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
+) (
+  input  logic                 clk_i,
+  input  logic                 rst_ni,
+
+  // Triangles: written before their first beat comes.
+  input  logic                 slot_write_i,
+  input  logic [SlotBits-1:0]  slot_i,
+  input  depth_equation_t      slot_equation_i,
+  input  draw_state_t          slot_state_i,
+
+  // quad_generator: the beats of a burst come without a gap.
+  input  logic                 beat_valid_i,
+  output logic                 beat_ready_o,
+  input  quad_beat_t           beat_i,
+
+  // fragment shader
+  output logic                 beat_valid_o,
+  input  logic                 beat_ready_i,
+  output tested_beat_t         beat_o,
+
+  // Memory reads: requests, and their data in the same order. A line has 2 bytes a sample (half) or 4.
+  output logic                 read_valid_o,
+  input  logic                 read_ready_i,
+  output logic [LineBits-1:0]  read_line_o,
+  output logic                 read_half_o,
+  input  logic                 fill_valid_i,
+  input  logic [FillBits-1:0]  fill_data_i,
+
+  // Memory writes, beat by beat.
+  output logic                 write_valid_o,
+  input  logic                 write_ready_i,
+  output logic [LineBits-1:0]  write_line_o,
+  output logic                 write_half_o,
+  output logic                 write_last_o,
+  output logic [WriteBits-1:0] write_data_o,
+
+  // Nothing is left to do. A clear or a flush is taken in such a cycle; done is high in the first cycle after it.
+  output logic                 idle_o,
+  input  logic                 clear_valid_i,
+  input  logic [TileBits-1:0]  clear_first_i,
+  input  logic [TileBits-1:0]  clear_last_i,
+  output logic                 clear_done_o,
+  input  logic                 flush_i,
+  output logic                 flush_done_o
+);
+
+  localparam int unsigned PartLines = Lines / ZParts;
+  localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1;
+  localparam int unsigned PendingBits = $clog2(PendingDepth);
+  localparam int unsigned Beats = TileQuads / QuadWidth; // of the largest burst
+  localparam int unsigned BeatBits = Beats > 1 ? $clog2(Beats) : 1;
+  localparam int unsigned Slices = QuadWidth / TestWidth;
+  localparam int unsigned SliceBits = Slices > 1 ? $clog2(Slices) : 1;
+  localparam int unsigned CountBits = $clog2(PendingDepth + 1);
+  localparam int unsigned InterpolatorLatency = 7;
+
+  localparam logic [FormatBits-1:0] Unorm16 = 1;
+  localparam logic [FuncBits-1:0] Never = 0;
+  localparam logic [FuncBits-1:0] Always = '1;
+
+  typedef logic [PendingBits-1:0] burst_t;
+  typedef logic [BeatBits-1:0] beat_number_t;
+  typedef logic [SliceBits-1:0] slice_t;
+  typedef logic [CountBits-1:0] count_t;
+
+  // Triangles, as each side needs them.
+  typedef struct packed {
+    logic                     touches;
+    logic                     half;
+    logic [TileBits-1:0]      first_tile;
+    logic [TileCoordBits-1:0] tiles_x;
+  } lookup_state_t;
+
+  typedef struct packed {
+    logic                  touches;
+    logic                  half;
+    logic                  test;
+    logic                  write;
+    logic [FuncBits-1:0]   func;
+    logic [CodeBits-1:0]   clear_code;
+  } test_state_t;
+
+  typedef struct packed {
+    depth_equation_t       equation;
+    logic [FormatBits-1:0] format;
+    test_state_t           state;
+  } triangle_t;
+
+  lookup_state_t write_lookup, lookup_state;
+  triangle_t     write_triangle, triangle;
+  logic          touches, half, state_read;
+
+  assign touches = slot_state_i.test && slot_state_i.func != Never
+                   && (slot_state_i.write || slot_state_i.func != Always);
+  assign half    = slot_state_i.format == Unorm16;
+  assign write_lookup = '{
+    touches:    touches,
+    half:       half,
+    first_tile: TileBits'(slot_state_i.first_tile),
+    tiles_x:    slot_state_i.tiles_x
+  };
+  assign write_triangle = '{
+    equation: slot_equation_i,
+    format:   slot_state_i.format,
+    state:    '{
+      touches:    touches,
+      half:       half,
+      test:       slot_state_i.test,
+      write:      slot_state_i.write,
+      func:       slot_state_i.func,
+      clear_code: slot_state_i.clear_code
+    }
+  };
+
+  logic unused_state;
+  assign unused_state = ^slot_state_i;
+
+  sync_ram #(
+    .Width ($bits(lookup_state_t)),
+    .Depth (2 ** SlotBits)
+  ) u_lookup_state (
+    .clk_i           (clk_i),
+    .write_i         (slot_write_i),
+    .write_address_i (slot_i),
+    .data_i          (write_lookup),
+    .read_i          (state_read),
+    .read_address_i  (beat_i.slot),
+    .data_o          (lookup_state)
+  );
+
+  // Lookup.
+  logic                                 first, found, resolved, burst_done, leaving, request;
+  burst_t                               burst, found_burst;
+  logic [ZParts-1:0]                    missed, victim, victim_half, fetched, fill_free, stored;
+  logic [ZParts-1:0]                    leaving_part, slot_half;
+  logic [ZParts-1:0] [PartLineBits-1:0] line_index;
+  logic [ZParts-1:0] [TileBits-1:0]     victim_tile, stored_tile, slot_tile;
+  logic [ZParts-1:0] [Ways-1:0]         dropped;
+  logic [TileBits-1:0]                  leaving_tile;
+  logic                                 lookup_idle, test_idle, written;
+
+  logic                                 inspect, drop, mark;
+  logic [PartLineBits-1:0]              inspect_line;
+  logic [TileBits-1:0]                  clear_first, clear_last, mark_from;
+
+  z_lookup #(
+    .PendingDepth   (PendingDepth),
+    .Lines          (Lines),
+    .Ways           (Ways),
+    .MissesInFlight (MissesInFlight),
+    .MemoryTiles    (MemoryTiles),
+    .ClearTiles     (ClearTiles)
+  ) u_lookup (
+    .clk_i          (clk_i),
+    .rst_ni         (rst_ni),
+    .beat_valid_i   (beat_valid_i),
+    .beat_ready_o   (beat_ready_o),
+    .tile_x_i       (beat_i.tile_x),
+    .tile_y_i       (beat_i.tile_y),
+    .last_i         (beat_i.last),
+    .parts_i        (beat_i.parts),
+    .first_o        (first),
+    .burst_o        (burst),
+    .state_read_o   (state_read),
+    .touches_i      (lookup_state.touches),
+    .half_i         (lookup_state.half),
+    .first_tile_i   (lookup_state.first_tile),
+    .tiles_x_i      (lookup_state.tiles_x),
+    .found_o        (found),
+    .found_burst_o  (found_burst),
+    .missed_o       (missed),
+    .line_index_o   (line_index),
+    .victim_o       (victim),
+    .victim_tile_o  (victim_tile),
+    .victim_half_o  (victim_half),
+    .resolved_o     (resolved),
+    .fetched_o      (fetched),
+    .burst_done_i   (burst_done),
+    .fill_free_i    (fill_free),
+    .stored_i       (stored),
+    .stored_tile_i  (stored_tile),
+    .leaving_part_o (leaving_part),
+    .leaving_tile_o (leaving_tile),
+    .leaving_i      (leaving),
+    .read_valid_o   (read_valid_o),
+    .read_ready_i   (read_ready_i),
+    .read_line_o    (read_line_o),
+    .read_half_o    (read_half_o),
+    .inspect_i      (inspect),
+    .slot_i         (inspect_line),
+    .drop_i         (drop),
+    .mark_i         (mark),
+    .clear_first_i  (clear_first),
+    .clear_last_i   (clear_last),
+    .mark_from_i    (mark_from),
+    .dropped_o      (dropped),
+    .slot_tile_o    (slot_tile),
+    .slot_half_o    (slot_half),
+    .idle_o         (lookup_idle)
+  );
+
+  assign request = read_valid_o & read_ready_i;
+
+  // Pending store: what a burst has once, and its beats.
+  typedef struct packed {
+    logic [SlotBits-1:0]      slot;
+    logic [TileCoordBits-1:0] tile_x;
+    logic [TileCoordBits-1:0] tile_y;
+    edge_t [1:0]              e;
+  } burst_head_t;
+
+  typedef struct packed {
+    logic                                last;
+    slice_t                              last_slice; // the last with a quad
+    logic [QuadWidth-1:0] [QuadIndexBits-1:0] index;
+    logic [QuadWidth-1:0] [QuadMaskBits-1:0]  mask;
+  } stored_beat_t;
+
+  burst_head_t  heads_q [PendingDepth];
+  stored_beat_t beats_q [PendingDepth*Beats];
+  stored_beat_t new_beat;
+  beat_number_t beat_number_q, beat_number;
+  logic         take;
+
+  assign take        = beat_valid_i & beat_ready_o;
+  assign beat_number = first ? '0 : beat_number_q;
+
+  always_comb begin
+    new_beat = '{last: beat_i.last, last_slice: '0, index: beat_i.index, mask: beat_i.mask};
+    for (int unsigned i = 0; i < Slices; i++) begin
+      if (beat_i.mask[i*TestWidth+:TestWidth] != '0) begin
+        new_beat.last_slice = slice_t'(i);
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (take) begin
+      beat_number_q <= beat_number + beat_number_t'(1);
+      beats_q[int'(burst)*int'(Beats)+int'(beat_number)] <= new_beat;
+      if (first) begin
+        heads_q[burst] <= '{
+          slot: beat_i.slot, tile_x: beat_i.tile_x, tile_y: beat_i.tile_y, e: beat_i.e};
+      end
+    end
+  end
+
+  // From the pending store to the interpolator: a beat in a cycle in which the FIFO behind it has room.
+  count_t       pending_q;                // bursts, not all of whose beats have gone
+  burst_t       issue_burst_q;
+  beat_number_t issue_beat_q;
+  slice_t       issue_slice_q;
+  logic         issue, issue_end, issue_last, codes_ready;
+  burst_head_t  head;
+  stored_beat_t stored_beat;
+
+  assign head        = heads_q[issue_burst_q];
+  assign stored_beat = beats_q[int'(issue_burst_q)*int'(Beats)+int'(issue_beat_q)];
+  assign issue       = pending_q != '0 && codes_ready;
+  assign issue_end   = issue_slice_q == stored_beat.last_slice;
+  assign issue_last  = issue_end & stored_beat.last;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      pending_q     <= '0;
+      issue_burst_q <= '0;
+      issue_beat_q  <= '0;
+      issue_slice_q <= '0;
+    end else begin
+      pending_q <= pending_q + count_t'(found) - count_t'(issue && issue_last);
+      if (issue) begin
+        issue_slice_q <= issue_end ? '0 : issue_slice_q + slice_t'(1);
+        if (issue_last) begin
+          issue_beat_q  <= '0;
+          issue_burst_q <= issue_burst_q == burst_t'(PendingDepth - 1)
+                           ? '0 : issue_burst_q + burst_t'(1);
+        end else if (issue_end) begin
+          issue_beat_q <= issue_beat_q + beat_number_t'(1);
+        end
+      end
+    end
+  end
+
+  sync_ram #(
+    .Width ($bits(triangle_t)),
+    .Depth (2 ** SlotBits)
+  ) u_triangles (
+    .clk_i           (clk_i),
+    .write_i         (slot_write_i),
+    .write_address_i (slot_i),
+    .data_i          (write_triangle),
+    .read_i          (issue),
+    .read_address_i  (head.slot),
+    .data_o          (triangle)
+  );
+
+  // What travels with the codes.
+  typedef struct packed {
+    logic                                     first;
+    burst_t                                   burst;
+    logic [SlotBits-1:0]                      slot;
+    logic [TileCoordBits-1:0]                 tile_x;
+    logic [TileCoordBits-1:0]                 tile_y;
+    logic                                     last;
+    logic [TestWidth-1:0] [QuadIndexBits-1:0] index;
+    logic [TestWidth-1:0] [QuadMaskBits-1:0]  mask;
+  } traveller_t;
+
+  typedef struct packed {
+    traveller_t                            beat;
+    test_state_t                           state;
+    logic [TestSamples-1:0] [CodeBits-1:0] codes;
+  } coded_t;
+
+  traveller_t  issued_q;
+  edge_t [1:0] issued_e_q;
+  traveller_t  beat_q  [InterpolatorLatency];
+  test_state_t state_q [InterpolatorLatency];
+  logic [InterpolatorLatency:0] valid_q; // bit i: i cycles after the first stage
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= '0;
+    end else begin
+      valid_q <= {valid_q[InterpolatorLatency-1:0], issue};
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (issue) begin
+      issued_q <= '{
+        first:  issue_beat_q == '0 && issue_slice_q == '0,
+        burst:  issue_burst_q,
+        slot:   head.slot,
+        tile_x: head.tile_x,
+        tile_y: head.tile_y,
+        last:   issue_last,
+        index:  stored_beat.index[int'(issue_slice_q)*TestWidth+:TestWidth],
+        mask:   stored_beat.mask[int'(issue_slice_q)*TestWidth+:TestWidth]
+      };
+      issued_e_q <= head.e;
+    end
+    beat_q[0]  <= issued_q;
+    state_q[0] <= triangle.state;
+    for (int unsigned i = 1; i < InterpolatorLatency; i++) begin
+      beat_q[i]  <= beat_q[i-1];
+      state_q[i] <= state_q[i-1];
+    end
+  end
+
+  coded_t coded, coded_out;
+  logic   coded_valid, coded_taken;
+
+  depth_interpolator #(
+    .Quads (TestWidth)
+  ) u_interpolator (
+    .clk_i      (clk_i),
+    .format_i   (triangle.format),
+    .equation_i (triangle.equation),
+    .e_i        (issued_e_q),
+    .index_i    (issued_q.index),
+    .code_o     (coded.codes)
+  );
+
+  assign coded.beat  = beat_q[InterpolatorLatency-1];
+  assign coded.state = state_q[InterpolatorLatency-1];
+
+  // As many as are under way and one, so that a beat can go in every cycle.
+  credit_fifo #(
+    .Width ($bits(coded_t)),
+    .Depth (InterpolatorLatency + 3)
+  ) u_codes (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (codes_ready),
+    .reserve_i       (issue),
+    .push_i          (valid_q[InterpolatorLatency]),
+    .data_i          (coded),
+    .pop_valid_o     (coded_valid),
+    .pop_ready_i     (coded_taken),
+    .data_o          (coded_out)
+  );
+
+  // Test.
+  tested_beat_t test_beat;
+  assign test_beat = '{
+    slot:   coded_out.beat.slot,
+    tile_x: coded_out.beat.tile_x,
+    tile_y: coded_out.beat.tile_y,
+    last:   coded_out.beat.last,
+    index:  coded_out.beat.index,
+    mask:   coded_out.beat.mask,
+    passed: '0,
+    depth:  coded_out.codes
+  };
+
+  logic                    scan, scan_done;
+  logic [ZParts-1:0]       scan_part;
+  logic [PartLineBits-1:0] scan_next_line;
+
+  z_test #(
+    .PendingDepth   (PendingDepth),
+    .FifoDepth      (FifoDepth),
+    .Lines          (Lines),
+    .Ways           (Ways),
+    .MissesInFlight (MissesInFlight),
+    .WriteBuffers   (WriteBuffers),
+    .ReadBytes      (ReadBytes),
+    .WriteBytes     (WriteBytes),
+    .MemoryTiles    (MemoryTiles)
+  ) u_test (
+    .clk_i            (clk_i),
+    .rst_ni           (rst_ni),
+    .found_i          (found),
+    .found_burst_i    (found_burst),
+    .missed_i         (missed),
+    .line_index_i     (line_index),
+    .victim_i         (victim),
+    .victim_tile_i    (victim_tile),
+    .victim_half_i    (victim_half),
+    .resolved_i       (resolved),
+    .fetched_i        (fetched),
+    .beat_valid_i     (coded_valid),
+    .beat_ready_o     (coded_taken),
+    .first_i          (coded_out.beat.first),
+    .burst_i          (coded_out.beat.burst),
+    .touches_i        (coded_out.state.touches),
+    .test_i           (coded_out.state.test),
+    .write_i          (coded_out.state.write),
+    .func_i           (coded_out.state.func),
+    .half_i           (coded_out.state.half),
+    .clear_code_i     (coded_out.state.clear_code),
+    .beat_i           (test_beat),
+    .beat_valid_o     (beat_valid_o),
+    .beat_ready_i     (beat_ready_i),
+    .beat_o           (beat_o),
+    .burst_done_o     (burst_done),
+    .fill_free_o      (fill_free),
+    .stored_o         (stored),
+    .stored_tile_o    (stored_tile),
+    .leaving_part_i   (leaving_part),
+    .leaving_tile_i   (leaving_tile),
+    .leaving_o        (leaving),
+    .request_i        (request),
+    .request_half_i   (read_half_o),
+    .fill_valid_i     (fill_valid_i),
+    .fill_data_i      (fill_data_i),
+    .write_valid_o    (write_valid_o),
+    .write_ready_i    (write_ready_i),
+    .write_line_o     (write_line_o),
+    .write_half_o     (write_half_o),
+    .write_last_o     (write_last_o),
+    .write_data_o     (write_data_o),
+    .scan_i           (scan),
+    .scan_part_i      (scan_part),
+    .scan_line_i      (inspect_line),
+    .scan_next_line_i (scan_next_line),
+    .scan_tile_i      (slot_tile),
+    .scan_half_i      (slot_half),
+    .scan_done_o      (scan_done),
+    .drop_i           (drop),
+    .drop_line_i      (inspect_line),
+    .dropped_i        (dropped),
+    .written_o        (written),
+    .idle_o           (test_idle)
+  );
+
+  z_control #(
+    .Lines       (Lines),
+    .Ways        (Ways),
+    .ClearTiles  (ClearTiles),
+    .MemoryTiles (MemoryTiles)
+  ) u_control (
+    .clk_i         (clk_i),
+    .rst_ni        (rst_ni),
+    .idle_i        (lookup_idle & test_idle),
+    .written_i     (written),
+    .idle_o        (idle_o),
+    .clear_valid_i (clear_valid_i),
+    .clear_first_i (clear_first_i),
+    .clear_last_i  (clear_last_i),
+    .clear_done_o  (clear_done_o),
+    .flush_i       (flush_i),
+    .flush_done_o  (flush_done_o),
+    .inspect_o     (inspect),
+    .line_o        (inspect_line),
+    .drop_o        (drop),
+    .mark_o        (mark),
+    .first_o       (clear_first),
+    .last_o        (clear_last),
+    .mark_from_o   (mark_from),
+    .scan_o        (scan),
+    .scan_part_o   (scan_part),
+    .next_line_o   (scan_next_line),
+    .scan_done_i   (scan_done)
+  );
+
+endmodule

@@ -1,0 +1,605 @@
+// The test of the z cache: the codes of its lines, fill buffers, write buffer, and the comparison.
+//
+// A beat waits in the test register, the codes of its lines read, until what its burst misses is there. In that cycle b
+// it is tested; if it is the first of a burst that misses, lines move: the old one to the write buffer, the new one,
+// with what the beat writes, to the banks. All later beats see it: banks forward what is written.
+
+module z_test
+  import raster_pkg::*;
+#(
+  /// Bursts between the lookup and the end of their test, 2 or more.
+  parameter int unsigned PendingDepth = 32,
+  /// Bursts in the output FIFO, 2 or more.
+  parameter int unsigned FifoDepth = 16,
+  /// Lines of the cache, a power of two, at least ZParts * Ways.
+  parameter int unsigned Lines = 128,
+  /// Lines of a set: a power of two.
+  parameter int unsigned Ways = 4,
+  /// Fill buffers, ZParts or more: a line each.
+  parameter int unsigned MissesInFlight = 16,
+  /// Lines on their way to memory, ZParts or more.
+  parameter int unsigned WriteBuffers = 4,
+  /// Bytes that memory reads in a cycle: a power of two.
+  parameter int unsigned ReadBytes = 64,
+  /// Bytes that memory writes in a cycle: a power of two.
+  parameter int unsigned WriteBytes = 64,
+  /// Tiles of all surfaces, 2 or more.
+  parameter int unsigned MemoryTiles = 1024,
+  localparam int unsigned TileBits = $clog2(MemoryTiles),
+  localparam int unsigned PartLines = Lines / ZParts,
+  localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1,
+  localparam int unsigned PendingBits = $clog2(PendingDepth),
+  localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
+  localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
+  localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
+) (
+  input  logic                                   clk_i,
+  input  logic                                   rst_ni,
+
+  // What the lookup knows of a burst, long before its first beat comes.
+  input  logic                                   found_i,
+  input  logic [PendingBits-1:0]                 found_burst_i,
+  input  logic [ZParts-1:0]                      missed_i,
+  input  logic [ZParts-1:0] [PartLineBits-1:0]   line_index_i,
+  input  logic [ZParts-1:0]                      victim_i,
+  input  logic [ZParts-1:0] [TileBits-1:0]       victim_tile_i,
+  input  logic [ZParts-1:0]                      victim_half_i,
+  // Of the same burst, some time later: all parts are resolved.
+  input  logic                                   resolved_i,
+  input  logic [ZParts-1:0]                      fetched_i,
+
+  // Beats with their interpolated codes, and the state of the draw.
+  input  logic                                   beat_valid_i,
+  output logic                                   beat_ready_o,
+  input  logic                                   first_i,
+  input  logic [PendingBits-1:0]                 burst_i,
+  input  logic                                   touches_i,
+  input  logic                                   test_i,
+  input  logic                                   write_i,
+  input  logic [FuncBits-1:0]                    func_i,
+  input  logic                                   half_i,
+  input  logic [CodeBits-1:0]                    clear_code_i,
+  // depth of all samples; passed means nothing
+  input  tested_beat_t                           beat_i,
+
+  output logic                                   beat_valid_o,
+  input  logic                                   beat_ready_i,
+  output tested_beat_t                           beat_o,
+
+  // To the lookup.
+  output logic                                   burst_done_o,
+  output logic [ZParts-1:0]                      fill_free_o,
+  output logic [ZParts-1:0]                      stored_o,
+  output logic [ZParts-1:0] [TileBits-1:0]       stored_tile_o,
+  input  logic [ZParts-1:0]                      leaving_part_i,
+  input  logic [TileBits-1:0]                    leaving_tile_i,
+  output logic                                   leaving_o,
+
+  // Memory: what was asked for, its data, what is written.
+  input  logic                                   request_i,
+  input  logic                                   request_half_i,
+  input  logic                                   fill_valid_i,
+  input  logic [FillBits-1:0]                    fill_data_i,
+  output logic                                   write_valid_o,
+  input  logic                                   write_ready_i,
+  output logic [LineBits-1:0]                    write_line_o,
+  output logic                                   write_half_o,
+  output logic                                   write_last_o,
+  output logic [WriteBits-1:0]                   write_data_o,
+
+  // Flush: looks at a slot in each cycle of scan_i until it may go on. inspect_i: the next cycle may look at a slot.
+  input  logic                                   scan_i,
+  input  logic [ZParts-1:0]                      scan_part_i,
+  input  logic [PartLineBits-1:0]                scan_line_i,
+  input  logic [PartLineBits-1:0]                scan_next_line_i,
+  input  logic [ZParts-1:0] [TileBits-1:0]       scan_tile_i,
+  input  logic [ZParts-1:0]                      scan_half_i,
+  output logic                                   scan_done_o,
+
+  // Clear: slots of a set that hold nothing any more.
+  input  logic                                   drop_i,
+  input  logic [PartLineBits-1:0]                drop_line_i,   // the first of the set
+  input  logic [ZParts-1:0] [Ways-1:0]           dropped_i,
+
+  output logic                                   written_o,     // the write buffer is empty
+  output logic                                   idle_o
+);
+
+  localparam int unsigned PartQuads = TileQuads / ZParts;
+  localparam int unsigned TestBeats = TileQuads / TestWidth;
+  localparam int unsigned ReadFull = LineBytes > ReadBytes ? LineBytes / ReadBytes : 1;
+  localparam int unsigned ReadHalf = LineBytes / 2 > ReadBytes ? LineBytes / 2 / ReadBytes : 1;
+  localparam int unsigned WriteFull = LineBytes > WriteBytes ? LineBytes / WriteBytes : 1;
+  localparam int unsigned WriteHalf = LineBytes / 2 > WriteBytes ? LineBytes / 2 / WriteBytes : 1;
+  localparam int unsigned ReadCountBits = ReadFull > 1 ? $clog2(ReadFull) : 1;
+  localparam int unsigned WriteCountBits = WriteFull > 1 ? $clog2(WriteFull) : 1;
+  localparam int unsigned FillPointerBits = MissesInFlight > 1 ? $clog2(MissesInFlight) : 1;
+  localparam int unsigned BufferPointerBits = WriteBuffers > 1 ? $clog2(WriteBuffers) : 1;
+  localparam int unsigned BurstCountBits = $clog2(PendingDepth + 1);
+  localparam int unsigned FillCountBits = $clog2(MissesInFlight + 1);
+  localparam int unsigned BufferCountBits = $clog2(WriteBuffers + 1);
+  localparam int unsigned FifoCountBits = $clog2(FifoDepth + 1);
+
+  typedef logic [PartQuads-1:0] [3:0] [CodeBits-1:0] line_t;          // codes by quad
+  typedef logic [8*LineBytes-1:0] packed_line_t;                      // as in memory
+  typedef logic [FillPointerBits-1:0]   fill_pointer_t;
+  typedef logic [BufferPointerBits-1:0] buffer_pointer_t;
+  typedef logic [BurstCountBits-1:0]    burst_count_t;
+  typedef logic [FillCountBits-1:0]     fill_count_t;
+  typedef logic [BufferCountBits-1:0]   buffer_count_t;
+  typedef logic [FifoCountBits-1:0]     fifo_count_t;
+
+  typedef struct packed {
+    logic [ZParts-1:0]                     missed;
+    logic [ZParts-1:0] [PartLineBits-1:0]  line_index;
+    logic [ZParts-1:0]                     victim;
+    logic [ZParts-1:0] [TileBits-1:0]      victim_tile;
+    logic [ZParts-1:0]                     victim_half;
+  } header_t;
+
+  // Place of a quad's sample in its line, in row order.
+  function automatic int unsigned sample_at(int unsigned quad, int unsigned sample);
+    return (2 * (quad / (TileSize / 2)) + sample / 2) * TileSize
+           + 2 * (quad % (TileSize / 2)) + sample % 2;
+  endfunction
+
+  // Codes from a line as in memory, and back.
+  function automatic line_t codes_of(packed_line_t bytes, logic half);
+    line_t codes;
+    for (int unsigned q = 0; q < PartQuads; q++) begin
+      for (int unsigned s = 0; s < 4; s++) begin
+        codes[q][s] = half ? {16'b0, bytes[16*sample_at(q, s)+:16]} : bytes[32*sample_at(q, s)+:32];
+      end
+    end
+    return codes;
+  endfunction
+  function automatic packed_line_t memory_of(line_t codes, logic half);
+    packed_line_t bytes;
+    bytes = '0;
+    for (int unsigned q = 0; q < PartQuads; q++) begin
+      for (int unsigned s = 0; s < 4; s++) begin
+        if (half) begin
+          bytes[16*sample_at(q, s)+:16] = codes[q][s][15:0];
+        end else begin
+          bytes[32*sample_at(q, s)+:32] = codes[q][s];
+        end
+      end
+    end
+    return bytes;
+  endfunction
+
+  function automatic fill_pointer_t after_fill(fill_pointer_t pointer, int unsigned steps);
+    automatic int unsigned sum = int'(pointer) + steps;
+    return fill_pointer_t'(sum >= MissesInFlight ? sum - MissesInFlight : sum);
+  endfunction
+  function automatic buffer_pointer_t after_buffer(buffer_pointer_t pointer, int unsigned steps);
+    automatic int unsigned sum = int'(pointer) + steps;
+    return buffer_pointer_t'(sum >= WriteBuffers ? sum - WriteBuffers : sum);
+  endfunction
+
+  function automatic logic passes(logic [FuncBits-1:0] func, logic [CodeBits-1:0] code,
+                                  logic [CodeBits-1:0] stored);
+    return (func[0] && code < stored) || (func[1] && code == stored)
+           || (func[2] && code > stored);
+  endfunction
+
+  // Headers of the bursts, and which of their victims have yet to leave.
+  header_t           headers_q [PendingDepth];
+  logic [ZParts-1:0] fetched_q [PendingDepth];
+  logic [PendingDepth-1:0] [ZParts-1:0] leaving_q;
+
+  logic    fire, swap;
+  logic [PendingBits-1:0] test_burst_q;
+
+  always_ff @(posedge clk_i) begin
+    if (found_i) begin
+      headers_q[found_burst_i] <= '{
+        missed: missed_i, line_index: line_index_i, victim: victim_i, victim_tile: victim_tile_i,
+        victim_half: victim_half_i};
+    end
+    if (resolved_i) begin
+      fetched_q[found_burst_i] <= fetched_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      leaving_q <= '0;
+    end else begin
+      if (swap) begin
+        leaving_q[test_burst_q] <= '0;
+      end
+      if (found_i) begin
+        leaving_q[found_burst_i] <= missed_i & victim_i;
+      end
+    end
+  end
+
+  // The test register. Codes of its lines are read as it is loaded.
+  logic         valid_q, first_q, touches_q, test_q, write_q, half_q;
+  logic [FuncBits-1:0] func_q;
+  logic [CodeBits-1:0] clear_code_q;
+  tested_beat_t beat_q;
+  logic         load;
+
+  assign beat_ready_o = ~valid_q | fire;
+  assign load         = beat_valid_i & beat_ready_o;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= 1'b0;
+    end else begin
+      valid_q <= load | (valid_q & ~fire);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (load) begin
+      first_q      <= first_i;
+      test_burst_q <= burst_i;
+      touches_q    <= touches_i;
+      test_q       <= test_i;
+      write_q      <= write_i;
+      func_q       <= func_i;
+      half_q       <= half_i;
+      clear_code_q <= clear_code_i;
+      beat_q       <= beat_i;
+    end
+  end
+
+  header_t           header, next_header;
+  logic [ZParts-1:0] fetched, dirty_victim;
+  logic [ZParts-1:0] [PartLines-1:0] dirty_q;
+  assign header      = headers_q[test_burst_q];
+  assign next_header = headers_q[burst_i];
+  assign fetched     = fetched_q[test_burst_q] & header.missed;
+
+  for (genvar p = 0; p < ZParts; p++) begin : gen_dirty_victim
+    assign dirty_victim[p] = header.missed[p] & header.victim[p] & dirty_q[p][header.line_index[p]];
+  end
+
+  logic unused_next_header;
+  assign unused_next_header = ^{next_header.missed, next_header.victim, next_header.victim_tile,
+                                next_header.victim_half};
+
+  // When the first beat of a burst may be tested.
+  burst_count_t  resolved_q;                  // bursts, not yet begun
+  fill_count_t   filled_q, wanted_fills;      // fill buffers full; of this burst
+  buffer_count_t buffers_q, wanted_buffers;   // write buffers in use; of this burst
+  fifo_count_t   fifo_free_q;                 // bursts for which the output FIFO has room
+
+  always_comb begin
+    wanted_fills   = '0;
+    wanted_buffers = '0;
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      wanted_fills   += fill_count_t'(fetched[p]);
+      wanted_buffers += buffer_count_t'(dirty_victim[p]);
+    end
+  end
+
+  logic ready_to_begin;
+  assign ready_to_begin = resolved_q != '0 && filled_q >= wanted_fills
+                          && buffer_count_t'(WriteBuffers) - buffers_q >= wanted_buffers
+                          && fifo_free_q != '0;
+  assign fire           = valid_q & (~first_q | ready_to_begin);
+  assign swap           = fire & first_q;
+  assign burst_done_o   = fire & beat_q.last;
+  assign fill_free_o    = swap ? fetched : '0;
+
+  logic fill_end, write_end, last_popped;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      resolved_q  <= '0;
+      filled_q    <= '0;
+      fifo_free_q <= fifo_count_t'(FifoDepth);
+    end else begin
+      resolved_q  <= resolved_q + burst_count_t'(resolved_i) - burst_count_t'(swap);
+      filled_q    <= filled_q + fill_count_t'(fill_end) - (swap ? wanted_fills : '0);
+      fifo_free_q <= fifo_free_q + fifo_count_t'(last_popped) - fifo_count_t'(swap);
+    end
+  end
+
+  // Fill buffers.
+  packed_line_t  fills_q [MissesInFlight];
+  logic          fill_half_q [MissesInFlight];
+  // Next to be asked for, to be filled, to go into the cache.
+  fill_pointer_t request_q, fill_q, taken_q;
+  logic [ReadCountBits-1:0] fill_beat_q;
+
+  logic [ReadCountBits-1:0] last_fill_beat;
+  assign last_fill_beat = ReadCountBits'((fill_half_q[fill_q] ? ReadHalf : ReadFull) - 1);
+  assign fill_end       = fill_valid_i && fill_beat_q == last_fill_beat;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      request_q   <= '0;
+      fill_q      <= '0;
+      taken_q     <= '0;
+      fill_beat_q <= '0;
+    end else begin
+      if (request_i) begin
+        request_q <= after_fill(request_q, 1);
+      end
+      if (fill_valid_i) begin
+        fill_beat_q <= fill_end ? '0 : fill_beat_q + ReadCountBits'(1);
+      end
+      if (fill_end) begin
+        fill_q <= after_fill(fill_q, 1);
+      end
+      if (swap) begin
+        taken_q <= after_fill(taken_q, int'(wanted_fills));
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (request_i) begin
+      fill_half_q[request_q] <= request_half_i;
+    end
+    for (int unsigned i = 0; i < ReadFull; i++) begin
+      if (fill_valid_i && fill_beat_q == ReadCountBits'(i)) begin
+        fills_q[fill_q][i*FillBits+:FillBits] <= fill_data_i;
+      end
+    end
+  end
+
+  // The banks, and the lines as the beat sees them.
+  line_t [ZParts-1:0]  stored, line, updated;
+  logic [ZParts-1:0] [PartQuads-1:0] [3:0] wrote;
+  logic [ZParts-1:0]   wrote_part;
+
+  for (genvar p = 0; p < ZParts; p++) begin : gen_part
+    logic [PartLineBits-1:0] read_line;
+    assign read_line = load ? next_header.line_index[p] : scan_next_line_i;
+
+    for (genvar q = 0; q < PartQuads; q++) begin : gen_bank
+      z_bank #(
+        .Lines (PartLines)
+      ) u_bank (
+        .clk_i        (clk_i),
+        .read_i       (load | ~valid_q),
+        .read_line_i  (read_line),
+        .codes_o      (stored[p][q]),
+        .write_i      ({4{fire}} & (wrote[p][q] | {4{first_q & header.missed[p]}})),
+        .write_line_i (header.line_index[p]),
+        .codes_i      (updated[p][q])
+      );
+    end
+
+    // The fill buffer of this part: after those of the parts before it.
+    localparam logic [ZParts-1:0] Before = ZParts'((1 << p) - 1);
+    packed_line_t  fill;
+    fill_pointer_t fill_slot;
+    always_comb begin
+      automatic int unsigned earlier = 0;
+      for (int unsigned i = 0; i < ZParts; i++) begin
+        earlier += Before[i] && fetched[i] ? 1 : 0;
+      end
+      fill_slot = after_fill(taken_q, earlier);
+    end
+    assign fill = fills_q[fill_slot];
+
+    assign line[p] = !(first_q && header.missed[p]) ? stored[p]
+                     : fetched[p] ? codes_of(fill, half_q) : {4 * PartQuads{clear_code_q}};
+
+    assign wrote_part[p] = |wrote[p];
+  end
+
+  // The comparison, and where its results go.
+  tested_beat_t result_d;
+
+  always_comb begin
+    result_d = beat_q;
+    wrote    = '0;
+    updated  = line;
+    for (int unsigned v = 0; v < TestWidth; v++) begin
+      for (int unsigned s = 0; s < 4; s++) begin
+        automatic logic [CodeBits-1:0] code = beat_q.depth[4*v+s];
+        automatic logic pass;
+        automatic logic covered = beat_q.mask[v][s];
+        pass = 1'b0;
+        for (int unsigned p = 0; p < ZParts; p++) begin
+          for (int unsigned q = 0; q < PartQuads; q++) begin
+            if (beat_q.index[v] == QuadIndexBits'(p * PartQuads + q)) begin
+              pass |= passes(func_q, code, line[p][q][s]);
+            end
+          end
+        end
+        pass = covered & (pass | ~test_q | (func_q == '1));
+        for (int unsigned p = 0; p < ZParts; p++) begin
+          for (int unsigned q = 0; q < PartQuads; q++) begin
+            if (beat_q.index[v] == QuadIndexBits'(p * PartQuads + q) && pass && touches_q
+                && write_q) begin
+              wrote[p][q][s]   = 1'b1;
+              updated[p][q][s] = code;
+            end
+          end
+        end
+        result_d.passed[v][s]  = pass;
+        result_d.depth[4*v+s] = covered ? code : '0;
+      end
+    end
+  end
+
+  // Dirty slots.
+  always_ff @(posedge clk_i) begin
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      if (!rst_ni) begin
+        dirty_q[p] <= '0;
+      end else if (fire) begin
+        if (wrote_part[p]) begin
+          dirty_q[p][header.line_index[p]] <= 1'b1;
+        end else if (first_q && header.missed[p]) begin
+          dirty_q[p][header.line_index[p]] <= 1'b0;
+        end
+      end else if (scan_i && scan_part_i[p] && scan_done_o) begin
+        dirty_q[p][scan_line_i] <= 1'b0;
+      end else if (drop_i) begin
+        for (int unsigned w = 0; w < Ways; w++) begin
+          if (dropped_i[p][w]) begin
+            dirty_q[p][int'(drop_line_i)+w] <= 1'b0;
+          end
+        end
+      end
+    end
+  end
+
+  // The write buffer: victims of a burst in order of parts, or a line of the flush.
+  logic              scan_dirty;
+  logic [ZParts-1:0] push;
+  always_comb begin
+    scan_dirty = 1'b0;
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      scan_dirty |= scan_part_i[p] & dirty_q[p][scan_line_i];
+    end
+  end
+  assign scan_done_o = ~scan_dirty | (buffers_q != buffer_count_t'(WriteBuffers));
+  assign push        = swap ? dirty_victim : scan_i && scan_dirty && scan_done_o ? scan_part_i : '0;
+
+  typedef struct packed {
+    logic [ZParts-1:0]   part;
+    logic [TileBits-1:0] tile;
+    logic                half;
+  } write_t;
+
+  write_t          writes_q [WriteBuffers];
+  packed_line_t    lines_q  [WriteBuffers];
+  buffer_pointer_t push_q, write_slot_q;
+  logic [WriteBuffers-1:0] in_use_q;
+  logic [WriteCountBits-1:0] write_beat_q;
+  buffer_count_t   pushed;
+  buffer_pointer_t push_slot [ZParts];
+  packed_line_t    old_line  [ZParts];
+  write_t          old       [ZParts];
+
+  always_comb begin
+    pushed = '0;
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      push_slot[p] = after_buffer(push_q, int'(pushed));
+      pushed += buffer_count_t'(push[p]);
+      old[p] = '{
+        part: ZParts'(1) << p,
+        tile: swap ? header.victim_tile[p] : scan_tile_i[p],
+        half: swap ? header.victim_half[p] : scan_half_i[p]};
+      stored_o[p]      = push[p];
+      stored_tile_o[p] = old[p].tile;
+      old_line[p]      = memory_of(stored[p], old[p].half);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      if (push[p]) begin
+        writes_q[push_slot[p]] <= old[p];
+        lines_q[push_slot[p]]  <= old_line[p];
+      end
+    end
+  end
+
+  write_t writing;
+  packed_line_t written_line;
+  assign writing       = writes_q[write_slot_q];
+  assign written_line  = lines_q[write_slot_q];
+  assign write_valid_o = buffers_q != '0;
+  assign write_half_o  = writing.half;
+  assign write_last_o  =
+      write_beat_q == WriteCountBits'((writing.half ? WriteHalf : WriteFull) - 1);
+  assign write_end     = write_valid_o & write_ready_i & write_last_o;
+
+  always_comb begin
+    write_line_o = LineBits'(writing.tile) * LineBits'(ZParts);
+    for (int unsigned p = 0; p < ZParts; p++) begin
+      if (writing.part[p]) begin
+        write_line_o |= LineBits'(p);
+      end
+    end
+    write_data_o = written_line[WriteBits-1:0];
+    for (int unsigned i = 0; i < WriteFull; i++) begin
+      if (write_beat_q == WriteCountBits'(i)) begin
+        write_data_o = written_line[i*WriteBits+:WriteBits];
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      buffers_q    <= '0;
+      push_q       <= '0;
+      write_slot_q <= '0;
+      write_beat_q <= '0;
+      in_use_q     <= '0;
+    end else begin
+      buffers_q <= buffers_q + pushed - buffer_count_t'(write_end);
+      push_q    <= after_buffer(push_q, int'(pushed));
+      if (write_valid_o && write_ready_i) begin
+        write_beat_q <= write_last_o ? '0 : write_beat_q + WriteCountBits'(1);
+      end
+      if (write_end) begin
+        write_slot_q           <= after_buffer(write_slot_q, 1);
+        in_use_q[write_slot_q] <= 1'b0;
+      end
+      for (int unsigned p = 0; p < ZParts; p++) begin
+        if (push[p]) begin
+          in_use_q[push_slot[p]] <= 1'b1;
+        end
+      end
+    end
+  end
+
+  // Lines on their way out: victims of bursts that are not tested, and what is not yet written.
+  always_comb begin
+    leaving_o = 1'b0;
+    for (int unsigned i = 0; i < PendingDepth; i++) begin
+      for (int unsigned p = 0; p < ZParts; p++) begin
+        leaving_o |= leaving_part_i[p] && leaving_q[i][p]
+                     && headers_q[i].victim_tile[p] == leaving_tile_i;
+      end
+    end
+    for (int unsigned i = 0; i < WriteBuffers; i++) begin
+      leaving_o |= in_use_q[i] && writes_q[i].part == leaving_part_i
+                   && writes_q[i].tile == leaving_tile_i;
+    end
+  end
+
+  // Results. The FIFO has room for whole bursts, so the credit of a burst is credit for its beats.
+  logic         result_q, reserve_ready;
+  tested_beat_t result_beat_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      result_q <= 1'b0;
+    end else begin
+      result_q <= fire;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (fire) begin
+      result_beat_q <= result_d;
+    end
+  end
+
+  credit_fifo #(
+    .Width ($bits(tested_beat_t)),
+    .Depth (FifoDepth * TestBeats)
+  ) u_fifo (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (reserve_ready),
+    .reserve_i       (fire),
+    .push_i          (result_q),
+    .data_i          (result_beat_q),
+    .pop_valid_o     (beat_valid_o),
+    .pop_ready_i     (beat_ready_i),
+    .data_o          (beat_o)
+  );
+
+  logic unused_reserve_ready;
+  assign unused_reserve_ready = reserve_ready;
+
+  assign last_popped = beat_valid_o & beat_ready_i & beat_o.last;
+  assign written_o   = buffers_q == '0;
+  assign idle_o      = fifo_free_q == fifo_count_t'(FifoDepth) && written_o;
+
+endmodule

@@ -1,0 +1,111 @@
+#include "early_z/coverage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace halfspace::tb {
+namespace {
+
+constexpr std::array<const char*, 5> kFormatNames = {"none", "unorm16", "unorm24", "unorm32", "float32"};
+
+std::string state_bin(const EarlyZState& state) {
+  return fmt::format("state {} func {} {}", kFormatNames[static_cast<std::size_t>(state.format)],
+                     static_cast<int>(state.func), state.write ? "write" : "no write");
+}
+
+std::string miss_bin(bool fetch, const char* victim) {
+  return fmt::format("miss {} victim {}", fetch ? "fetched" : "cleared", victim);
+}
+
+}  // namespace
+
+ZCoverage::ZCoverage(const EarlyZShape& shape) {
+  for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32}) {
+    for (int func = 0; func < 8; ++func) {
+      for (const bool write : {false, true}) {
+        counts_[state_bin(
+            {.test = true, .write = write, .func = static_cast<DepthFunc>(func), .format = format})] = 0;
+      }
+    }
+    counts_[fmt::format("test off {}", kFormatNames[static_cast<std::size_t>(format)])] = 0;
+  }
+  counts_["test off none"] = 0;
+  for (const bool fetch : {false, true}) {
+    for (const char* victim : {"none", "clean", "dirty"}) {
+      counts_[miss_bin(fetch, victim)] = 0;
+    }
+  }
+  counts_["hit"] = 0;
+  for (int missed = 1; missed <= shape.widths.ZParts; ++missed) {
+    counts_[fmt::format("parts missed {}", missed)] = 0;
+  }
+  if (shape.widths.ZParts > 1) {
+    counts_["one part hits, one misses"] = 0;
+  }
+  for (int beats = 1; beats <= shape.widths.TileQuads / shape.widths.QuadWidth; ++beats) {
+    counts_[fmt::format("beats {}", beats)] = 0;
+  }
+  for (const char* term : {"arrive", "lookup", "pending"}) {
+    counts_[fmt::format("f decided by {}", term)] = 0;
+  }
+  for (const char* term : {"order", "leaving", "fill buffers"}) {
+    counts_[fmt::format("r decided by {}", term)] = 0;
+  }
+  for (const char* term : {"lookup", "test", "fill", "write buffer", "credit"}) {
+    counts_[fmt::format("b decided by {}", term)] = 0;
+  }
+  for (const char* bin : {"clear", "flush clean", "flush dirty", "flush waits for the write buffer"}) {
+    counts_[bin] = 0;
+  }
+}
+
+void ZCoverage::command(const Command& command) {
+  switch (command.kind) {
+    case CommandKind::kClear:
+      hit("clear");
+      return;
+    case CommandKind::kFlush:
+      hit(command.flushed.empty() ? "flush clean" : "flush dirty");
+      return;
+    case CommandKind::kBurst:
+      break;
+  }
+  hit(fmt::format("beats {}", command.beats.size()));
+  if (!command.state.test) {
+    hit(fmt::format("test off {}", kFormatNames[static_cast<std::size_t>(command.state.format)]));
+    return;
+  }
+  hit(state_bin(command.state));
+  const auto touched = static_cast<std::size_t>(std::popcount(command.touched));
+  if (touched > command.misses.count) {
+    hit("hit");
+    if (command.misses.count != 0) {
+      hit("one part hits, one misses");
+    }
+  }
+  if (command.misses.count != 0) {
+    hit(fmt::format("parts missed {}", command.misses.count));
+  }
+  for (const ZMiss& miss : command.misses.parts()) {
+    hit(miss_bin(miss.fetch, miss.victim == kNoZLine ? "none" : miss.write_back ? "dirty" : "clean"));
+  }
+}
+
+double ZCoverage::percent() const {
+  const auto covered = std::ranges::count_if(counts_, [](const auto& bin) { return bin.second != 0; });
+  return 100.0 * static_cast<double>(covered) / static_cast<double>(counts_.size());
+}
+
+void ZCoverage::report() const {
+  for (const auto& [bin, count] : counts_) {
+    if (count == 0) {
+      fmt::print("not covered: {}\n", bin);
+    }
+  }
+  fmt::print("functional coverage: {:.1f} % of {} bins\n", percent(), counts_.size());
+}
+
+}  // namespace halfspace::tb

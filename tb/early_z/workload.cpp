@@ -1,0 +1,277 @@
+#include "early_z/workload.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "halfspace/units/packing.hpp"
+#include "halfspace/units/quad_generator.hpp"
+#include "halfspace/units/tile_mask.hpp"
+
+namespace halfspace::tb {
+namespace {
+
+constexpr std::size_t kSurfaces = 3;
+constexpr std::uint64_t kMostTriangles = 5;  // of a draw
+constexpr std::size_t kMostBursts = 16;      // of a triangle
+
+struct Surface {
+  DepthFormat format = DepthFormat::kNone;
+  ZSurface place;
+  int width = 0;  ///< in pixels
+  int height = 0;
+  std::uint32_t clear_code = 0;
+  std::vector<std::uint32_t> codes;  ///< tile by tile
+};
+
+class Maker {
+ public:
+  Maker(const EarlyZShape& shape, std::uint64_t seed, bool local)
+      : shape_(shape),
+        local_(local),
+        random_(seed),
+        cache_({.lines = shape.lines, .ways = shape.ways, .parts = parts()},
+               static_cast<std::uint32_t>(shape.memory_tiles * parts())) {
+    make_surfaces();
+  }
+
+  Workload make(std::size_t bursts) {
+    std::size_t left = bursts;
+    while (left > 0) {
+      switch (random_.below(8)) {
+        case 0:
+          clear(surfaces_[random_.below(kSurfaces)]);
+          break;
+        case 1:
+          if (random_.below(3) == 0) {
+            flush();
+          }
+          break;
+        default:
+          draw(left);
+      }
+    }
+    flush();
+    for (std::uint32_t line = 0; line < workload_.memory_before.size(); ++line) {
+      FinalLine& last = workload_.memory_after.emplace_back();
+      last.known = !cleared_[line];
+      last.bytes = last.known ? bytes_of(line) : std::vector<std::uint8_t>();
+    }
+    return std::move(workload_);
+  }
+
+ private:
+  [[nodiscard]] int parts() const { return shape_.widths.ZParts; }
+  [[nodiscard]] int tile_samples() const { return shape_.widths.MaskBits; }
+
+  /// Surfaces share the tiles of memory: the last takes what is left. Random codes are in them.
+  void make_surfaces() {
+    static constexpr std::array<DepthFormat, kSurfaces> kFormats = {
+        DepthFormat::kUnorm16, DepthFormat::kFloat32, DepthFormat::kUnorm24};
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < kSurfaces; ++i) {
+      Surface& surface = surfaces_[i];
+      surface.format = kFormats[i];
+      const std::uint32_t tiles = static_cast<std::uint32_t>(shape_.memory_tiles) / kSurfaces;
+      const auto columns = static_cast<std::uint32_t>(3 + 2 * i);
+      surface.place = {
+          .first_tile = next,
+          .tiles_x = columns,
+          .tiles = tiles / columns * columns,
+          .line_bytes = static_cast<std::uint32_t>(sample_bytes(surface.format) * tile_samples() / parts())};
+      next += surface.place.tiles;
+      surface.width = static_cast<int>(columns) * shape_.widths.TileSize;
+      surface.height = static_cast<int>(surface.place.tiles / columns) * shape_.widths.TileSize;
+      for (std::uint32_t n = surface.place.tiles * static_cast<std::uint32_t>(tile_samples()); n > 0; --n) {
+        surface.codes.push_back(stored_code(surface.format, random_vertex_depth(surface.format)));
+      }
+    }
+    cleared_.resize(static_cast<std::size_t>(shape_.memory_tiles * parts()));
+    for (std::uint32_t line = 0; line < cleared_.size(); ++line) {
+      workload_.memory_before.push_back(bytes_of(line));
+    }
+  }
+
+  std::uint32_t random_vertex_depth(DepthFormat format) {
+    return vertex_depth_code(format, static_cast<double>(random_.below(1u << 20)) / ((1u << 20) - 1));
+  }
+
+  [[nodiscard]] const Surface* surface_of(std::uint32_t line) const {
+    const std::uint32_t tile = line / static_cast<std::uint32_t>(parts());
+    for (const Surface& surface : surfaces_) {
+      if (tile >= surface.place.first_tile && tile < surface.place.first_tile + surface.place.tiles) {
+        return &surface;
+      }
+    }
+    return nullptr;
+  }
+
+  /// The line in memory, as it is now in the picture.
+  [[nodiscard]] std::vector<std::uint8_t> bytes_of(std::uint32_t line) const {
+    std::vector<std::uint8_t> bytes;
+    const Surface* const surface = surface_of(line);
+    if (surface == nullptr) {
+      return bytes;
+    }
+    const auto samples = static_cast<std::uint32_t>(tile_samples() / parts());
+    const std::uint32_t first =
+        (line - surface->place.first_tile * static_cast<std::uint32_t>(parts())) * samples;
+    for (std::uint32_t i = 0; i < samples; ++i) {
+      const std::uint32_t code = surface->codes[first + i];
+      for (int byte = 0; byte < sample_bytes(surface->format); ++byte) {
+        bytes.push_back(static_cast<std::uint8_t>(code >> (8 * byte)));
+      }
+    }
+    return bytes;
+  }
+
+  void clear(Surface& surface) {
+    surface.clear_code = stored_code(surface.format, random_vertex_depth(surface.format));
+    std::ranges::fill(surface.codes, surface.clear_code);
+    cache_.clear(surface.place);
+    Command& command = workload_.commands.emplace_back();
+    command.kind = CommandKind::kClear;
+    command.first = surface.place.first_tile;
+    command.last = surface.place.first_tile + surface.place.tiles - 1;
+    for (std::uint32_t line = command.first * static_cast<std::uint32_t>(parts());
+         line < (command.last + 1) * static_cast<std::uint32_t>(parts()); ++line) {
+      cleared_[line] = true;
+    }
+  }
+
+  void flush() {
+    Command& command = workload_.commands.emplace_back();
+    command.kind = CommandKind::kFlush;
+    cache_.flush([&](std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
+      command.flushed.push_back({slot, line, bytes});
+      cleared_[line] = false;
+    });
+  }
+
+  void draw(std::size_t& left) {
+    Surface& surface = surfaces_[random_.below(kSurfaces)];
+    const bool none = random_.below(16) == 0;
+    const EarlyZState state{.test = !none && random_.below(8) != 0,
+                            .write = random_.below(4) != 0,
+                            .func = static_cast<DepthFunc>(random_.below(8)),
+                            .format = none ? DepthFormat::kNone : surface.format,
+                            .sub_pixel_bits = shape_.widths.SubPixelBits};
+    DrawStatePacket packet{.format = static_cast<std::uint8_t>(state.format),
+                           .test = state.test,
+                           .write = state.write,
+                           .func = static_cast<std::uint8_t>(state.func),
+                           .clear_code = surface.clear_code,
+                           .first_tile = surface.place.first_tile,
+                           .tiles_x = static_cast<std::uint16_t>(surface.place.tiles_x - 1)};
+    const int height = local_ ? std::min(surface.height, 2 * shape_.widths.TileSize) : surface.height;
+    for (std::uint64_t count = 1 + random_.below(kMostTriangles); count > 0 && left > 0; --count) {
+      SetupTriangle triangle = random_triangle(shape_.widths, state.format, surface.width, height, random_);
+      const std::vector<QuadBurst> bursts =
+          bursts_of(shape_.widths, triangle, std::min(left, kMostBursts), random_);
+      if (bursts.empty()) {
+        continue;
+      }
+      left -= bursts.size();
+      TriangleWords words;
+      words.equation.resize(words_for(packed_bits<DepthEquationPacket>(shape_.widths)));
+      words.state.resize(words_for(packed_bits<DrawStatePacket>(shape_.widths)));
+      pack(equation_packet(triangle), shape_.widths, words.equation);
+      pack(packet, shape_.widths, words.state);
+      workload_.triangles.push_back(words);
+      for (const QuadBurst& burst : bursts) {
+        with_tile(shape_.widths.TileSize,
+                  [&](auto size) { add_burst<size()>(triangle, burst, state, surface); });
+      }
+    }
+  }
+
+  template <int TileSize>
+  void add_burst(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
+                 Surface& surface) {
+    Command& command = workload_.commands.emplace_back();
+    command.triangle = workload_.triangles.size() - 1;
+    command.state = state;
+    command.quads = popcount(burst.quads);
+    const std::uint32_t tile =
+        burst.coverage.tile_y * surface.place.tiles_x + static_cast<std::uint32_t>(burst.coverage.tile_x);
+    std::uint32_t* const stored = &surface.codes[tile * static_cast<std::uint32_t>(TileSize * TileSize)];
+    TileCodes<TileSize> codes{};
+    const TileMask passed = early_z<TileSize>(triangle, burst, state, stored, codes);
+    if (state.format == DepthFormat::kNone) {
+      codes.fill(0);
+    } else if (!state.test) {
+      interpolate_tile<TileSize>(triangle, burst, state, codes);
+    }
+    const std::uint8_t covered = parts_of_mask<TileSize>(burst.coverage.mask, parts());
+    if (touches_depth(state)) {
+      command.touched = covered;
+      const std::uint8_t written = state.write ? parts_of_mask<TileSize>(passed, parts()) : std::uint8_t{0};
+      command.misses =
+          cache_.access(surface.place, burst.coverage.tile_x, burst.coverage.tile_y, covered, written);
+      for (const ZMiss& miss : command.misses.parts()) {
+        if (miss.write_back) {
+          cleared_[miss.victim] = false;
+        }
+      }
+    }
+    std::vector<Quad> quads;
+    for_each_quad<TileSize>(burst, [&](const Quad& quad) { quads.push_back(quad); });
+    const auto slot = static_cast<std::uint8_t>(command.triangle);
+    const auto index = [](const Quad& quad) {
+      return static_cast<std::uint8_t>(quad.y / 2 * (TileSize / 2) + quad.x / 2);
+    };
+    const auto width = static_cast<std::size_t>(shape_.widths.QuadWidth);
+    for (std::size_t first = 0; first < quads.size(); first += width) {
+      QuadBeat beat{.slot = slot,
+                    .tile_x = burst.coverage.tile_x,
+                    .tile_y = burst.coverage.tile_y,
+                    .e = burst.coverage.e,
+                    .last = first + width >= quads.size()};
+      for (int part = 0; part < parts(); ++part) {
+        beat.parts[static_cast<std::size_t>(part)] = covered >> part & 1;
+      }
+      for (std::size_t i = 0; i < width && first + i < quads.size(); ++i) {
+        beat.index[i] = index(quads[first + i]);
+        beat.mask[i] = quads[first + i].mask;
+      }
+      pack(beat, shape_.widths, command.beats.emplace_back(words_for(packed_bits<QuadBeat>(shape_.widths))));
+    }
+    const auto test_width = static_cast<std::size_t>(shape_.widths.TestWidth);
+    for (std::size_t first = 0; first < quads.size(); first += test_width) {
+      TestedBeat beat{.slot = slot,
+                      .tile_x = burst.coverage.tile_x,
+                      .tile_y = burst.coverage.tile_y,
+                      .last = first + test_width >= quads.size()};
+      for (std::size_t i = 0; i < test_width && first + i < quads.size(); ++i) {
+        const Quad& quad = quads[first + i];
+        beat.index[i] = index(quad);
+        beat.mask[i] = quad.mask;
+        beat.passed[i] = quad_bits<TileSize>(passed, quad.x, quad.y);
+        for (int s = 0; s < 4; ++s) {
+          if ((quad.mask >> s & 1) != 0) {
+            beat.depth[4 * i + static_cast<std::size_t>(s)] =
+                codes[static_cast<std::size_t>((quad.y + s / 2) * TileSize + quad.x + s % 2)];
+          }
+        }
+      }
+      pack(beat, shape_.widths,
+           command.tested.emplace_back(words_for(packed_bits<TestedBeat>(shape_.widths))));
+    }
+  }
+
+  EarlyZShape shape_;
+  bool local_;
+  Random random_;
+  ZCache cache_;
+  std::array<Surface, kSurfaces> surfaces_;
+  std::vector<bool> cleared_;  ///< by line: memory does not hold it
+  Workload workload_;
+};
+
+}  // namespace
+
+Workload make_workload(const EarlyZShape& shape, std::uint64_t seed, std::size_t bursts, bool local) {
+  return Maker(shape, seed, local).make(bursts);
+}
+
+}  // namespace halfspace::tb

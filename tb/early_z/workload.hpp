@@ -1,0 +1,61 @@
+/// What the bench sends to early_z, and what must come of it: commands in order, with the C++ units' answers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "early_z/dut.hpp"
+#include "early_z/triangles.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace::tb {
+
+enum class CommandKind : std::uint8_t { kBurst, kClear, kFlush };
+
+struct FlushedLine {
+  std::uint32_t slot = 0;
+  std::uint32_t line = 0;
+  std::uint32_t bytes = 0;
+};
+
+struct Command {
+  CommandKind kind = CommandKind::kBurst;
+  // A burst.
+  std::size_t triangle = 0;  ///< in Workload::triangles
+  int quads = 0;
+  EarlyZState state;
+  ZMisses misses;
+  std::uint8_t touched = 0;
+  std::vector<std::vector<std::uint32_t>> beats;   ///< as they come
+  std::vector<std::vector<std::uint32_t>> tested;  ///< as they must leave
+  // A clear, in tiles.
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+  // A flush.
+  std::vector<FlushedLine> flushed;
+};
+
+struct TriangleWords {
+  std::vector<std::uint32_t> equation;
+  std::vector<std::uint32_t> state;
+};
+
+/// A line of memory at the end: its bytes, where memory has to hold them.
+struct FinalLine {
+  bool known = false;  ///< not only marked cleared
+  std::vector<std::uint8_t> bytes;
+};
+
+struct Workload {
+  std::vector<TriangleWords> triangles;
+  std::vector<Command> commands;                         ///< the last is a flush
+  std::vector<std::vector<std::uint8_t>> memory_before;  ///< by line
+  std::vector<FinalLine> memory_after;
+};
+
+/// Some draws to three surfaces of different formats, and to none, with `bursts` in all; clears and flushes
+/// between them. `local`: draws stay within a few tiles, so that bursts of the same line follow each other.
+[[nodiscard]] Workload make_workload(const EarlyZShape& shape, std::uint64_t seed, std::size_t bursts,
+                                     bool local);
+
+}  // namespace halfspace::tb

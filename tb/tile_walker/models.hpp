@@ -1,0 +1,18 @@
+/// The verilated configurations of tile_walker that a bench has.
+#pragma once
+
+#include <vector>
+
+#include "common/stream_dut.hpp"
+#include "reference_walk.hpp"
+
+namespace halfspace::tb {
+
+struct TileWalkerModel {
+  DutModel dut;
+  WalkerParameters parameters;
+};
+
+[[nodiscard]] std::vector<TileWalkerModel> tile_walker_models();
+
+}  // namespace halfspace::tb
