@@ -1,11 +1,5 @@
-# early_z's sources, in the order of their dependencies, and its lint.
-set(early_z_sources raster_pkg credit_fifo sync_ram depth_sample depth_interpolator z_bank z_clear_flags z_lookup
-    z_test z_control early_z)
-list(TRANSFORM early_z_sources PREPEND ${rtl_dir}/)
-list(TRANSFORM early_z_sources APPEND .sv)
-list(PREPEND early_z_sources ${rtl_dir}/raster_pkg.vlt)
-add_library(rtl_early_z INTERFACE)
-set_target_properties(rtl_early_z PROPERTIES SV_SOURCES "${early_z_sources}")
+# early_z: lint.
+halfspace_rtl_unit(early_z)
 
 # tile size, sub-pixel bits, quads of a beat in and tested, parts; lines, ways, bytes of memory in a cycle
 foreach(configuration "4;8;4;4;1;16;2;16" "4;5;1;1;1;1;1;1" "8;6;8;2;4;32;1;4" "8;8;4;4;1;128;4;64" "16;8;8;4;2;64;4;128"

@@ -1,10 +1,5 @@
-# quad_generator's sources, in the order of their dependencies, and its lint for every width of the packets.
-set(quad_generator_sources raster_pkg memory_fifo burst_fifo next_quads quad_generator)
-list(TRANSFORM quad_generator_sources PREPEND ${rtl_dir}/)
-list(TRANSFORM quad_generator_sources APPEND .sv)
-list(PREPEND quad_generator_sources ${rtl_dir}/raster_pkg.vlt)
-add_library(rtl_quad_generator INTERFACE)
-set_target_properties(rtl_quad_generator PROPERTIES SV_SOURCES "${quad_generator_sources}")
+# quad_generator: lint for every width of the packets.
+halfspace_rtl_unit(quad_generator)
 
 set(depths 2 3 4 64)
 set(parts 1 2 2 1)

@@ -1,11 +1,5 @@
-# setup: its sources in the order of their dependencies, lint.
-set(setup_sources raster_pkg setup_pkg credit_fifo pipe_register setup_cull setup_edges reciprocal_stage reciprocal
-    setup)
-list(TRANSFORM setup_sources PREPEND ${rtl_dir}/)
-list(TRANSFORM setup_sources APPEND .sv)
-list(PREPEND setup_sources ${rtl_dir}/raster_pkg.vlt)
-add_library(rtl_setup INTERFACE)
-set_target_properties(rtl_setup PROPERTIES SV_SOURCES "${setup_sources}")
+# setup: lint.
+halfspace_rtl_unit(setup)
 
 foreach(sub_pixel_bits RANGE 4 8)
   foreach(configuration "4;1;8;1" "8;2;32;0" "8;4;16;1" "16;8;64;1" "8;16;32;1")

@@ -1,10 +1,5 @@
-# tile_walker's sources, in the order of their dependencies, and its lint over its parameters.
-set(tile_walker_sources raster_pkg credit_fifo pipe_register corner_test walk_edge walk_position tile_walker)
-list(TRANSFORM tile_walker_sources PREPEND ${rtl_dir}/)
-list(TRANSFORM tile_walker_sources APPEND .sv)
-list(PREPEND tile_walker_sources ${rtl_dir}/raster_pkg.vlt)
-add_library(rtl_tile_walker INTERFACE)
-set_target_properties(rtl_tile_walker PROPERTIES SV_SOURCES "${tile_walker_sources}")
+# tile_walker: lint over its parameters.
+halfspace_rtl_unit(tile_walker)
 
 # Every pair of sizes; the other parameters take turns.
 set(turn 0)

@@ -1,0 +1,11 @@
+raster_pkg.sv
+credit_fifo.sv
+sync_ram.sv
+depth_sample.sv
+depth_interpolator.sv
+z_bank.sv
+z_clear_flags.sv
+z_lookup.sv
+z_test.sv
+z_control.sv
+early_z.sv

@@ -1,0 +1,9 @@
+raster_pkg.sv
+setup_pkg.sv
+credit_fifo.sv
+pipe_register.sv
+setup_cull.sv
+setup_edges.sv
+reciprocal_stage.sv
+reciprocal.sv
+setup.sv
