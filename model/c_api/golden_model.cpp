@@ -1,0 +1,178 @@
+#include "halfspace/c_api/golden_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "halfspace/numerics/error.hpp"
+
+namespace halfspace::c_api {
+namespace {
+
+void demand_packet(const void* packet) {
+  if (packet == nullptr) {
+    throw InputError("packet is a null pointer; legal: words of a packet");
+  }
+}
+
+void demand_bits(Link link, int bits, int legal) {
+  if (bits != legal) {
+    throw InputError(fmt::format("a packet of {} bits on link {} ({}); legal: {}", bits,
+                                 static_cast<int>(link), link_name(link), legal));
+  }
+}
+
+}  // namespace
+
+void GoldenModel::configure_file(const std::string& path) {
+  demand_configurable();
+  config_ = read_config(path);
+}
+
+void GoldenModel::configure(const std::string& toml) {
+  demand_configurable();
+  config_ = parse_config(toml, "configuration");
+}
+
+void GoldenModel::set(const std::string& assignment) {
+  demand_configurable();
+  set_config(config_, assignment);
+}
+
+void GoldenModel::demand_configurable() const {
+  if (context_ != nullptr) {
+    throw InputError("the configuration is fixed; legal: before anything else is asked of the model");
+  }
+}
+
+ChainContext& GoldenModel::context() {
+  if (context_ != nullptr) {
+    return *context_;
+  }
+  validate(config_);
+  if (config_.interpolator != DepthInterpolator::kBarycentric) {
+    throw InputError("configuration key 'depth.interpolator' is 'plane'; legal here: barycentric");
+  }
+  auto context = std::make_unique<ChainContext>();
+  context->widths = {.SubPixelBits = config_.sub_pixel_bits,
+                     .TileSize = config_.tile_size,
+                     .QuadWidth = config_.quad_width,
+                     .TestWidth = config_.early_z_width,
+                     .ZParts = config_.z_parts};
+  context->walker = {.sub_pixel_bits = config_.sub_pixel_bits,
+                     .block_size = config_.block_size,
+                     .block_level = config_.block_level,
+                     .trivial_reject = config_.trivial_reject,
+                     .trivial_accept = config_.trivial_accept};
+  for (int link = 0; link < HALFSPACE_LINKS; ++link) {
+    context->expected.emplace_back(words_for(link_bits(static_cast<Link>(link), context->widths)));
+  }
+  chain_ = make_unit_chain(*context);
+  context_ = std::move(context);
+  return *context_;
+}
+
+DepthSurfaces& GoldenModel::surfaces() { return context().surfaces; }
+int GoldenModel::tile_size() { return context().widths.TileSize; }
+
+int GoldenModel::packet_bits(int link) {
+  return link_bits(link_of(link, Link::kTriangle, Link::kTestedBeat), context().widths);
+}
+
+void GoldenModel::watch(int link) {
+  const Link wanted = link_of(link, Link::kSetupTriangle, Link::kTestedBeat);
+  ChainContext& all = context();
+  if (started_) {
+    throw InputError(fmt::format("link {} ({}) is watched too late; legal: before the first packet is put",
+                                 link, link_name(wanted)));
+  }
+  all.watched[static_cast<std::size_t>(wanted)] = true;
+  all.last = std::max(all.last, wanted);
+}
+
+ExpectedPackets& GoldenModel::watched(int link) {
+  const Link wanted = link_of(link, Link::kSetupTriangle, Link::kTestedBeat);
+  if (!context().watched[static_cast<std::size_t>(wanted)]) {
+    throw InputError(
+        fmt::format("link {} ({}) is not watched; legal: one that halfspace_watch was called with", link,
+                    link_name(wanted)));
+  }
+  return context().expected[static_cast<std::size_t>(wanted)];
+}
+
+std::vector<std::uint32_t> GoldenModel::words_of(Link link, const std::uint32_t* packet, int bits) {
+  demand_packet(packet);
+  demand_bits(link, bits, link_bits(link, context().widths));
+  std::vector<std::uint32_t> words(packet, packet + words_for(bits));
+  if (bits % 32 != 0) {
+    words.back() &= (1u << bits % 32) - 1;
+  }
+  return words;
+}
+
+void GoldenModel::put(int link, const std::uint32_t* packet, int bits) {
+  const Link to = link_of(link, Link::kTriangle, Link::kQuadBeat);
+  const std::vector<std::uint32_t> words = words_of(to, packet, bits);
+  ChainContext& all = context();
+  std::array<std::size_t, HALFSPACE_LINKS> before{};
+  std::ranges::transform(all.expected, before.begin(), &ExpectedPackets::size);
+  try {
+    chain_->put(to, words);
+  } catch (const InputError& error) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      all.expected[i].truncate(before[i]);
+    }
+    throw InputError(fmt::format("packet on link {} ({}): {}", link, link_name(to), error.what()));
+  }
+  started_ = true;
+}
+
+bool GoldenModel::get(int link, std::uint32_t* packet, int bits) {
+  ExpectedPackets& expected = watched(link);
+  demand_packet(packet);
+  demand_bits(static_cast<Link>(link), bits, packet_bits(link));
+  if (expected.size() == 0) {
+    return false;
+  }
+  expected.peek(0, {packet, expected.packet_words()});
+  expected.pop();
+  return true;
+}
+
+std::optional<std::string> GoldenModel::check(int link, const std::uint32_t* packet, int bits) {
+  ExpectedPackets& expected = watched(link);
+  const std::vector<std::uint32_t> got = words_of(static_cast<Link>(link), packet, bits);
+  const std::string name = fmt::format("{} packet {}", link_name(link), expected.taken());
+  if (expected.size() == 0) {
+    expected.count_unexpected();
+    return name + " came, but none is expected";
+  }
+  std::vector<std::uint32_t> want(got.size());
+  expected.peek(0, want);
+  std::optional<std::string> text;
+  if (want != got) {
+    text = fmt::format("{}: {}", name,
+                       differences(link_fields(static_cast<Link>(link), context().widths), want, got));
+    if (expected.size() > 1) {
+      expected.peek(1, want);
+      if (want == got) {
+        *text += fmt::format(" (it is what packet {} should be)", expected.taken() + 1);
+      }
+    }
+  }
+  expected.pop();
+  return text;
+}
+
+std::size_t GoldenModel::pending(int link) { return watched(link).size(); }
+
+void GoldenModel::reset() {
+  ChainContext& all = context();
+  for (ExpectedPackets& expected : all.expected) {
+    expected.reset();
+  }
+  chain_->reset();
+  started_ = false;
+}
+
+}  // namespace halfspace::c_api

@@ -1,0 +1,139 @@
+#include "halfspace/c_api/input_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "halfspace/c_api/depth_surfaces.hpp"
+#include "halfspace/numerics/error.hpp"
+
+namespace halfspace::c_api {
+namespace {
+
+void check_order(const char* first_name, int first, const char* last_name, int last) {
+  if (last < first) {
+    throw InputError(fmt::format("{} is {}; legal: at least {} ({})", last_name, last, first_name, first));
+  }
+}
+
+void demand_equal(const char* field, std::int64_t value, std::int64_t legal, const char* why) {
+  if (value != legal) {
+    throw InputError(fmt::format("{} is {}; legal: {}, {}", field, value, legal, why));
+  }
+}
+
+}  // namespace
+
+void check_draw(const DrawStatePacket& draw) {
+  constexpr std::array<bool, 8> kLegalFormat = {true, true, true, false, true, false, false, false};
+  if (!kLegalFormat[draw.format]) {
+    throw InputError(fmt::format("state.format is {}; legal: 0 (none), 1 (unorm16), 2 (unorm24), 4 (float32)",
+                                 draw.format));
+  }
+  if (draw.test != 0 && draw.format == 0) {
+    throw InputError("state.test is 1; legal: 0, since state.format is 0 (none)");
+  }
+  if (draw.empty == 0) {
+    check_order("state.x_first", draw.x_first, "state.x_last", draw.x_last);
+    check_order("state.y_first", draw.y_first, "state.y_last", draw.y_last);
+  }
+}
+
+void check_vertex_depths(const std::array<std::uint32_t, 3>& z, std::uint8_t format, const char* field) {
+  const std::uint32_t largest = largest_vertex_depth(static_cast<DepthFormat>(format));
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (z[i] > largest) {
+      throw InputError(
+          fmt::format("{}[{}] is {:#x}; legal: at most {:#x}, which is depth 1", field, i, z[i], largest));
+    }
+  }
+}
+
+void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const WalkerConfig& walker,
+                const Widths& widths) {
+  check_order("triangle.x_first", packet.x_first, "triangle.x_last", packet.x_last);
+  check_order("triangle.y_first", packet.y_first, "triangle.y_last", packet.y_last);
+  // A block holds whole tiles, so its squares hold all that the walk looks at. E is linear: its extremes are
+  // at corners.
+  const int square = walker.block_size;
+  const auto corners = [&](int first, int last) {
+    return std::array<std::int64_t, 2>{first / square * square, last / square * square + square - 1};
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge& edge = triangle.edge[i];
+    for (const std::int64_t x : corners(packet.x_first, packet.x_last)) {
+      for (const std::int64_t y : corners(packet.y_first, packet.y_last)) {
+        const std::int64_t e = edge.c + ((edge.a * x + edge.b * y) << walker.sub_pixel_bits);
+        if (!detail::fits(widths.EdgeBits, Sign::kSigned, e)) {
+          throw InputError(
+              fmt::format("triangle.e[{}] is {}, so E is {} at pixel ({}, {}); legal: {} signed bits", i,
+                          packet.e[i], e, x, y, widths.EdgeBits));
+        }
+      }
+    }
+  }
+}
+
+void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& draw, const Widths& widths) {
+  if (draw.format == 0) {
+    return;  // early_z does not look at it
+  }
+  check_vertex_depths(equation.z, draw.format, "equation.z");
+  if (equation.area2 < 1) {
+    throw InputError(fmt::format("equation.area2 is {}; legal: 1 or more", equation.area2));
+  }
+  const auto& z = equation.z;
+  SetupTriangle triangle;
+  triangle.edge[1] = {.a = equation.a[0], .b = equation.b[0]};
+  triangle.edge[2] = {.a = equation.a[1], .b = equation.b[1]};
+  triangle.depth.bias = equation.bias;
+  const auto format = static_cast<DepthFormat>(draw.format);
+  make_depth_equation({ScreenVertex{0, 0, z[0]}, ScreenVertex{0, 0, z[1]}, ScreenVertex{0, 0, z[2]}},
+                      triangle.edge, equation.area2, widths.SubPixelBits, format,
+                      DepthInterpolator::kBarycentric, triangle.depth);
+  const DepthEquationPacket legal = to_packet(triangle, format);
+  demand_equal("equation.reciprocal", equation.reciprocal, legal.reciprocal, "which follows from area2");
+  demand_equal("equation.shift", equation.shift, legal.shift, "which follows from area2");
+  demand_equal("equation.min_code", equation.min_code, legal.min_code, "which follows from z");
+  demand_equal("equation.max_code", equation.max_code, legal.max_code, "which follows from z");
+}
+
+void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle& triangle) {
+  const std::array<Edge, 3>& edge = triangle.edge;
+  for (std::size_t i = 0; i < 2; ++i) {
+    demand_equal(i == 0 ? "equation.a[0]" : "equation.a[1]", equation.a[i], edge[i + 1].a, "A of the edge");
+    demand_equal(i == 0 ? "equation.b[0]" : "equation.b[1]", equation.b[i], edge[i + 1].b, "B of the edge");
+  }
+  demand_equal("triangle.a[0]", edge[0].a, -(edge[1].a + edge[2].a), "less the sum of the other two");
+  demand_equal("triangle.b[0]", edge[0].b, -(edge[1].b + edge[2].b), "less the sum of the other two");
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum += edge[i].c + equation.bias[i];
+  }
+  demand_equal("equation.area2", equation.area2, sum, "the sum of E and bias of the three edges");
+}
+
+void check_samples(const Coverage& coverage, const SetupTriangle& triangle, const Widths& widths) {
+  const int side = widths.TileSize;
+  for (int bit = 0; bit < side * side; ++bit) {
+    if ((coverage.mask.word[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1) == 0) {
+      continue;
+    }
+    std::array<std::int64_t, 2> e{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Edge& edge = triangle.edge[i + 1];
+      const std::int64_t steps = std::int64_t{edge.a} * (bit % side) + std::int64_t{edge.b} * (bit / side);
+      e[i] = coverage.e[i] + triangle.depth.bias[i + 1] + (steps << widths.SubPixelBits);
+    }
+    if (e[0] < 0 || e[1] < 0 || e[0] + e[1] > triangle.depth.area2) {
+      throw InputError(fmt::format(
+          "mask covers sample ({}, {}) of the tile, where E of edges 1 and 2, unbiased, are {} and {}; "
+          "legal: not negative, their sum at most area2 ({}) of slot {}",
+          bit % side, bit / side, e[0], e[1], triangle.depth.area2, coverage.slot));
+    }
+  }
+}
+
+}  // namespace halfspace::c_api

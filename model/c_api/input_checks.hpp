@@ -1,0 +1,33 @@
+/// What the units demand of packets that come from outside, beyond the widths of their fields. All throw
+/// InputError.
+#pragma once
+
+#include "halfspace/c_api/link.hpp"
+#include "halfspace/units/link_packets.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/tile_walker.hpp"
+
+namespace halfspace::c_api {
+
+/// For setup and early_z: a format that there is, no test without one, bounds that hold a pixel unless
+/// `empty` is set.
+void check_draw(const DrawStatePacket& draw);
+
+/// For setup: depths between 0 and 1.
+void check_vertex_depths(const std::array<std::uint32_t, 3>& z, std::uint8_t format, const char* field);
+
+/// For tile_walker: bounds that hold a pixel, and E within its width at all samples of the squares that the
+/// walk looks at.
+void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const WalkerConfig& walker,
+                const Widths& widths);
+
+/// For early_z: the equation is that of some triangle, in the format of the draw.
+void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& draw, const Widths& widths);
+
+/// For early_z, where it works on what comes out of the walk: the equation is that of this triangle.
+void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle& triangle);
+
+/// For early_z: the covered samples of the coverage are inside the triangle.
+void check_samples(const Coverage& coverage, const SetupTriangle& triangle, const Widths& widths);
+
+}  // namespace halfspace::c_api

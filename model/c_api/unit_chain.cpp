@@ -1,0 +1,334 @@
+#include "halfspace/c_api/unit_chain.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "halfspace/c_api/input_checks.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/edge_evaluator.hpp"
+#include "halfspace/units/quad_beats.hpp"
+#include "halfspace/units/quad_generator.hpp"
+#include "halfspace/units/setup.hpp"
+#include "halfspace/units/tested_beats.hpp"
+
+namespace halfspace::c_api {
+namespace {
+
+/// What early_z keeps of a triangle: of its edges A and B, of its depth all that the barycentric interpolator
+/// uses.
+struct Slot {
+  SetupTriangle triangle;
+  DrawStatePacket draw;
+};
+
+SetupTriangle depth_part(const DepthEquationPacket& equation) {
+  SetupTriangle triangle;
+  triangle.edge[1] = {.a = equation.a[0], .b = equation.b[0]};
+  triangle.edge[2] = {.a = equation.a[1], .b = equation.b[1]};
+  triangle.depth.z = equation.z;
+  triangle.depth.bias = equation.bias;
+  triangle.depth.area2 = equation.area2;
+  triangle.depth.reciprocal = equation.reciprocal;
+  triangle.depth.shift = equation.shift;
+  triangle.depth.min_code = equation.min_code;
+  triangle.depth.max_code = equation.max_code;
+  return triangle;
+}
+
+template <int TileSize>
+class Chain final : public UnitChain {
+ public:
+  explicit Chain(ChainContext& context) : context_(context), widths_(context.widths), slots_(256) {}
+
+  void put(Link link, std::span<const std::uint32_t> words) override {
+    switch (link) {
+      case Link::kTriangle:
+        std::apply([&](const auto&... packets) { triangle(packets...); },
+                   TriangleLink::unpack(widths_, words));
+        return;
+      case Link::kSetupTriangle:
+        std::apply([&](const auto&... packets) { setup_triangle(packets...); },
+                   SetupTriangleLink::unpack(widths_, words));
+        return;
+      case Link::kSlot:
+        std::apply([&](const auto&... packets) { slot(packets...); }, SlotLink::unpack(widths_, words));
+        return;
+      case Link::kTileJob:
+        evaluate(unpack<TileJob>(words, widths_));
+        return;
+      case Link::kCoverage:
+        covered(unpack<Coverage>(words, widths_));
+        return;
+      case Link::kQuadBeat:
+        beat(unpack<QuadBeat>(words, widths_));
+        return;
+      case Link::kTestedBeat:
+        return;
+    }
+  }
+
+  void reset() override {
+    next_slot_ = 0;
+    slots_.assign(slots_.size(), std::nullopt);
+    burst_.clear();
+  }
+
+  // What tile_walker calls.
+  void decision(int /*x*/, int /*y*/, int /*size*/, TileVerdict /*verdict*/) {}
+  void tile(const TileJob& job, TileWork /*work*/) {
+    has_job_ = true;
+    emit<TileJobLink>(Link::kTileJob, job);
+    evaluate(job);
+  }
+
+ private:
+  template <class Layout, class... Packets>
+  void emit(Link link, const Packets&... packets) {
+    if (!context_.watched[static_cast<std::size_t>(link)]) {
+      return;
+    }
+    std::array<std::uint32_t, HALFSPACE_MAX_PACKET_WORDS> storage;
+    ExpectedPackets& expected = context_.expected[static_cast<std::size_t>(link)];
+    const std::span<std::uint32_t> words = std::span(storage).first(expected.packet_words());
+    Layout::pack(widths_, words, packets...);
+    expected.push(words);
+  }
+
+  void triangle(const ScreenTrianglePacket& packet, const DrawStatePacket& draw) {
+    check_draw(draw);
+    check_vertex_depths(packet.z, draw.format, "triangle.z");
+    if (draw.empty == 0) {
+      check_target(draw, draw.x_last, draw.y_last);
+    }
+    ScreenTriangle in;
+    for (std::size_t i = 0; i < 3; ++i) {
+      in.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
+    }
+    const auto format = static_cast<DepthFormat>(draw.format);
+    SetupState state{.sub_pixel_bits = widths_.SubPixelBits,
+                     .front_positive_area = draw.front_positive_area != 0,
+                     .cull_front = draw.cull_front != 0,
+                     .cull_back = draw.cull_back != 0,
+                     .bottom_left_rule = draw.bottom_left_rule != 0,
+                     .bounds = {},
+                     .depth_format = format};
+    if (draw.empty == 0) {
+      state.bounds = {
+          .x_first = draw.x_first, .y_first = draw.y_first, .x_last = draw.x_last, .y_last = draw.y_last};
+    }
+    SetupTriangle out;
+    if (setup(in, state, out) != SetupVerdict::kDrawn) {
+      return;
+    }
+    const DepthEquationPacket equation = to_packet(out, format);
+    emit<SetupTriangleLink>(Link::kSetupTriangle, to_packet(out, context_.walker, TileSize), equation, draw);
+    walk(out, equation, draw);
+  }
+
+  void setup_triangle(const SetupTrianglePacket& packet, const DepthEquationPacket& equation,
+                      const DrawStatePacket& draw) {
+    if (!context_.reaches(Link::kSlot)) {
+      return;
+    }
+    SetupTriangle in;
+    in.bounds = {.x_first = packet.x_first,
+                 .y_first = packet.y_first,
+                 .x_last = packet.x_last,
+                 .y_last = packet.y_last};
+    for (std::size_t i = 0; i < 3; ++i) {
+      in.edge[i] = {.a = packet.a[i], .b = packet.b[i]};
+    }
+    // The packet has E where the walk starts, the model at pixel (0, 0): the same way back.
+    const SetupTrianglePacket from_zero = to_packet(in, context_.walker, TileSize);
+    for (std::size_t i = 0; i < 3; ++i) {
+      in.edge[i].c = packet.e[i] - from_zero.e[i];
+    }
+    check_walk(packet, in, context_.walker, widths_);
+    if (context_.reaches(Link::kTestedBeat)) {
+      check_kept(equation, draw);
+      if (draw.format != 0) {
+        check_equation_of(equation, in);
+      }
+      check_target(draw, packet.x_last, packet.y_last);
+    }
+    walk(in, equation, draw);
+  }
+
+  void walk(const SetupTriangle& triangle, const DepthEquationPacket& equation, const DrawStatePacket& draw) {
+    if (!context_.reaches(Link::kSlot)) {
+      return;
+    }
+    emit<SlotLink>(Link::kSlot, SlotNumber{next_slot_}, equation, draw);
+    slots_[next_slot_] = Slot{depth_part(equation), draw};
+    has_job_ = false;
+    tile_walker<TileSize>(triangle, context_.walker, next_slot_, *this);
+    next_slot_ = static_cast<std::uint8_t>(next_slot_ + (has_job_ ? 1 : 0));
+  }
+
+  void slot(const SlotNumber& number, const DepthEquationPacket& equation, const DrawStatePacket& draw) {
+    if (!context_.reaches(Link::kTestedBeat)) {
+      return;
+    }
+    check_kept(equation, draw);
+    slots_[number.slot] = Slot{depth_part(equation), draw};
+  }
+
+  void evaluate(const TileJob& job) {
+    if (context_.reaches(Link::kCoverage)) {
+      const Coverage coverage = edge_evaluator<TileSize>(job, widths_.SubPixelBits);
+      emit<CoverageLink>(Link::kCoverage, coverage);
+      covered(coverage);
+    }
+  }
+
+  void covered(const Coverage& coverage) {
+    if (!context_.reaches(Link::kQuadBeat)) {
+      return;
+    }
+    const QuadBurst burst = quad_generator<TileSize>(coverage);
+    for (const QuadBeat& beat : quad_beats<TileSize>(burst, widths_)) {
+      emit<QuadBeatLink>(Link::kQuadBeat, beat);
+    }
+    if (any(coverage.mask)) {
+      test(burst);
+    }
+  }
+
+  void test(const QuadBurst& burst) {
+    if (!context_.reaches(Link::kTestedBeat)) {
+      return;
+    }
+    const Coverage& coverage = burst.coverage;
+    const std::optional<Slot>& slot = slots_[coverage.slot];
+    if (!slot) {
+      throw InputError(fmt::format("slot is {}; legal: one that was put on link {} ({}) before",
+                                   coverage.slot, HALFSPACE_SLOT, link_name(Link::kSlot)));
+    }
+    const DrawStatePacket& draw = slot->draw;
+    const EarlyZState state{.test = draw.test != 0,
+                            .write = draw.write != 0,
+                            .func = static_cast<DepthFunc>(draw.func),
+                            .format = static_cast<DepthFormat>(draw.format),
+                            .sub_pixel_bits = widths_.SubPixelBits};
+    std::uint32_t* stored = nullptr;
+    if (state.test) {
+      check_target(draw, coverage.tile_x * TileSize, coverage.tile_y * TileSize);
+      stored = context_.surfaces.of_draw(draw).codes.tile(coverage.tile_x, coverage.tile_y);
+    }
+    TileCodes<TileSize> codes{};
+    if (state.format != DepthFormat::kNone) {
+      check_samples(coverage, slot->triangle, widths_);
+    }
+    const TileMask passed = early_z<TileSize>(slot->triangle, burst, state, stored, codes);
+    if (!state.test && state.format != DepthFormat::kNone) {
+      interpolate_tile<TileSize>(slot->triangle, burst, state, codes);
+    }
+    for (const TestedBeat& beat : tested_beats<TileSize>(burst, passed, codes, widths_)) {
+      emit<TestedBeatLink>(Link::kTestedBeat, beat);
+    }
+  }
+
+  /// A burst is complete with its last beat; it must be the one that quad_generator makes of what it covers.
+  void beat(const QuadBeat& next) {
+    if (!context_.reaches(Link::kTestedBeat)) {
+      return;
+    }
+    const int most = (widths_.TileQuads + widths_.QuadWidth - 1) / widths_.QuadWidth;
+    burst_.push_back(next);
+    try {
+      if (next.last != 0) {
+        test(burst_of_beats());
+        burst_.clear();
+      } else if (std::cmp_equal(burst_.size(), most)) {
+        throw InputError(fmt::format("last is 0 in beat {} of a burst; legal: 1, since a tile has {} quads",
+                                     most, widths_.TileQuads));
+      }
+    } catch (const InputError&) {
+      burst_.pop_back();
+      throw;
+    }
+  }
+
+  QuadBurst burst_of_beats() const {
+    Coverage coverage{.slot = burst_[0].slot,
+                      .tile_x = burst_[0].tile_x,
+                      .tile_y = burst_[0].tile_y,
+                      .e = burst_[0].e,
+                      .mask = {}};
+    for (const QuadBeat& beat : burst_) {
+      for (std::size_t i = 0; std::cmp_less(i, widths_.QuadWidth); ++i) {
+        const int x = beat.index[i] % (TileSize / 2) * 2;
+        const int y = beat.index[i] / (TileSize / 2) * 2;
+        const std::uint32_t mask = beat.mask[i];
+        set_row<TileSize>(coverage.mask, y, (mask & 3) << x);
+        set_row<TileSize>(coverage.mask, y + 1, (mask >> 2) << x);
+      }
+    }
+    const QuadBurst burst = quad_generator<TileSize>(coverage);
+    const std::vector<QuadBeat> legal = quad_beats<TileSize>(burst, widths_);
+    if (legal.size() != burst_.size()) {
+      throw InputError(fmt::format("a burst of {} beats; legal: {}, since it has {} quads", burst_.size(),
+                                   legal.size(), popcount(burst.quads)));
+    }
+    const std::vector<FieldSlot> fields = link_fields(Link::kQuadBeat, widths_);
+    std::vector<std::uint32_t> want(words_for(link_bits(Link::kQuadBeat, widths_)));
+    std::vector<std::uint32_t> got(want.size());
+    for (std::size_t i = 0; i < legal.size(); ++i) {
+      pack(legal[i], widths_, want);
+      pack(burst_[i], widths_, got);
+      if (want != got) {
+        throw InputError(fmt::format("beat {} is not one of a burst as quad_generator makes it: {}", i,
+                                     differences(fields, want, got)));
+      }
+    }
+    return burst;
+  }
+
+  void check_kept(const DepthEquationPacket& equation, const DrawStatePacket& draw) const {
+    check_draw(draw);
+    check_equation(equation, draw, widths_);
+    if (draw.test != 0) {
+      static_cast<void>(context_.surfaces.of_draw(draw));
+    }
+  }
+
+  /// The pixel lies in a tile of the draw's surface, if early_z is to test there.
+  void check_target(const DrawStatePacket& draw, int x, int y) const {
+    if (draw.test == 0 || !context_.reaches(Link::kTestedBeat)) {
+      return;
+    }
+    const auto& codes = context_.surfaces.of_draw(draw).codes;
+    const int columns = codes.tiles_x() * TileSize;
+    const int rows = codes.tiles_y() * TileSize;
+    if (x >= columns || y >= rows) {
+      throw InputError(
+          fmt::format("pixel ({}, {}) is outside the depth surface at tile {}; legal: (0, 0) to ({}, {})", x,
+                      y, draw.first_tile, columns - 1, rows - 1));
+    }
+  }
+
+  ChainContext& context_;
+  const Widths& widths_;
+  std::uint8_t next_slot_ = 0;
+  bool has_job_ = false;  ///< the triangle in the walker has one
+  std::vector<std::optional<Slot>> slots_;
+  std::vector<QuadBeat> burst_;  ///< beats that were put, of a burst that is not complete
+};
+
+}  // namespace
+
+std::unique_ptr<UnitChain> make_unit_chain(ChainContext& context) {
+  switch (context.widths.TileSize) {
+    case 4:
+      return std::make_unique<Chain<4>>(context);
+    case 16:
+      return std::make_unique<Chain<16>>(context);
+    default:
+      return std::make_unique<Chain<8>>(context);
+  }
+}
+
+}  // namespace halfspace::c_api
