@@ -33,7 +33,10 @@ module burst_fifo #(
   input  logic                 pop_ready_i,
   output logic                 last_o,
   output logic [HeadWidth-1:0] head_o,
-  output logic [BeatWidth-1:0] beat_o
+  output logic [BeatWidth-1:0] beat_o,
+
+  // All credits are free.
+  output logic                 empty_o
 );
 
   typedef logic [$clog2(Depth+1)-1:0] count_t;
@@ -62,6 +65,7 @@ module burst_fifo #(
   end
 
   assign credit_next_o = free_d != '0;
+  assign empty_o       = free_q == count_t'(Depth);
 
   memory_fifo #(
     .Width (BeatWidth + 1),

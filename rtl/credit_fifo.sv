@@ -24,7 +24,10 @@ module credit_fifo #(
 
   output logic             pop_valid_o,
   input  logic             pop_ready_i,
-  output logic [Width-1:0] data_o
+  output logic [Width-1:0] data_o,
+
+  // All credits are free: nothing is in the FIFO, or promised to it.
+  output logic             empty_o
 );
 
   localparam int unsigned Stored = Depth - 1;
@@ -63,6 +66,7 @@ module credit_fifo #(
   end
 
   assign reserve_ready_o = reserve_ready_q;
+  assign empty_o         = free_q == count_t'(Depth);
 
   // A packet goes straight to the output register when that is free and nothing waits before it.
   logic             valid_q;

@@ -77,7 +77,11 @@ module early_z
   input  logic [TileBits-1:0]  clear_last_i,
   output logic                 clear_done_o,
   input  logic                 flush_i,
-  output logic                 flush_done_o
+  output logic                 flush_done_o,
+
+  // What the cycle is spent on, by the two stages.
+  output z_lookup_activity_e   lookup_activity_o,
+  output early_z_activity_e    activity_o
 );
 
   localparam int unsigned PartLines = Lines / ZParts;
@@ -232,6 +236,7 @@ module early_z
     .dropped_o      (dropped),
     .slot_tile_o    (slot_tile),
     .slot_half_o    (slot_half),
+    .activity_o     (lookup_activity_o),
     .idle_o         (lookup_idle)
   );
 
@@ -385,7 +390,7 @@ module early_z
   end
 
   coded_t coded, coded_out;
-  logic   coded_valid, coded_taken;
+  logic   coded_valid, coded_taken, unused_codes_empty;
 
   depth_interpolator #(
     .Quads (TestWidth)
@@ -414,7 +419,8 @@ module early_z
     .data_i          (coded),
     .pop_valid_o     (coded_valid),
     .pop_ready_i     (coded_taken),
-    .data_o          (coded_out)
+    .data_o          (coded_out),
+    .empty_o         (unused_codes_empty)
   );
 
   // Test.
@@ -498,6 +504,7 @@ module early_z
     .drop_line_i      (inspect_line),
     .dropped_i        (dropped),
     .written_o        (written),
+    .activity_o       (activity_o),
     .idle_o           (test_idle)
   );
 

@@ -24,7 +24,11 @@ module edge_evaluator
   // quad_generator
   output logic      coverage_valid_o,
   input  logic      coverage_ready_i,
-  output coverage_t coverage_o
+  output coverage_t coverage_o,
+
+  // What the cycle is spent on; whether nothing is left to do.
+  output edge_evaluator_activity_e activity_o,
+  output logic      idle_o
 );
 
   localparam bit CutSaturated = PipeStages >= 2;
@@ -152,7 +156,11 @@ module edge_evaluator
     .data_i          (coverage_q),
     .pop_valid_o     (coverage_valid_o),
     .pop_ready_i     (coverage_ready_i),
-    .data_o          (coverage_o)
+    .data_o          (coverage_o),
+    .empty_o         (idle_o)
   );
+
+  assign activity_o = job_accepted ? EdgeEvaluatorBusy
+                      : job_valid_i ? EdgeEvaluatorNoCredit : EdgeEvaluatorNoTile;
 
 endmodule

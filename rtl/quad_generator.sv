@@ -24,7 +24,11 @@ module quad_generator
   // early_z
   output logic       beat_valid_o,
   input  logic       beat_ready_i,
-  output quad_beat_t beat_o
+  output quad_beat_t beat_o,
+
+  // What the cycle is spent on; whether nothing is left to do.
+  output quad_generator_activity_e activity_o,
+  output logic       idle_o
 );
 
   localparam int unsigned Beats = TileQuads / QuadWidth;
@@ -194,8 +198,15 @@ module quad_generator
     .pop_ready_i   (beat_ready_i),
     .last_o        (out_last),
     .head_o        (out_head),
-    .beat_o        (out_beat)
+    .beat_o        (out_beat),
+    .empty_o       (idle_o)
   );
+
+  // The cycle of a burst's last beat is already the next coverage's.
+  logic beats_left;
+  assign beats_left = beats_q != '0 && beats_q != beats_t'(1);
+  assign activity_o = accepted || beats_left ? QuadGeneratorBusy
+                      : coverage_valid_i     ? QuadGeneratorNoCredit : QuadGeneratorNoCoverage;
 
   always_comb begin
     beat_o.slot   = out_head.slot;

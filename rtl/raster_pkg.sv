@@ -1,7 +1,8 @@
 // Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp and
-// model/units/link_packets.hpp: change those and print this file again. A configuration is chosen by defines:
+// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp,
+// model/units/link_packets.hpp and model/timing/cycle_stats.hpp: change those and print this file
+// again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
 // -DHALFSPACE_TILE_SIZE=4|8|16
 // -DHALFSPACE_QUAD_WIDTH=1|2|4|8|16
@@ -182,6 +183,60 @@ package raster_pkg;
     logic [TestWidth-1:0] [QuadMaskBits-1:0] passed;
     logic [TestSamples-1:0] [CodeBits-1:0] depth;
   } tested_beat_t;
+
+  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait
+  parameter int unsigned StageCount = 6;
+  parameter int unsigned ActivityCount = 6;
+  parameter int unsigned ActivityBits = $clog2(ActivityCount);
+
+  // a cycle of setup
+  typedef enum logic [ActivityBits-1:0] {
+    SetupBusy = 0,
+    SetupNoTriangle = 1,
+    SetupDivider = 2,
+    SetupNoCredit = 3
+  } setup_activity_e;
+
+  // a cycle of tile_walker
+  typedef enum logic [ActivityBits-1:0] {
+    TileWalkerBusy = 0,
+    TileWalkerNoTriangle = 1,
+    TileWalkerLoad = 2,
+    TileWalkerNoCredit = 3
+  } tile_walker_activity_e;
+
+  // a cycle of edge_evaluator
+  typedef enum logic [ActivityBits-1:0] {
+    EdgeEvaluatorBusy = 0,
+    EdgeEvaluatorNoTile = 1,
+    EdgeEvaluatorNoCredit = 2
+  } edge_evaluator_activity_e;
+
+  // a cycle of quad_generator
+  typedef enum logic [ActivityBits-1:0] {
+    QuadGeneratorBusy = 0,
+    QuadGeneratorNoCoverage = 1,
+    QuadGeneratorNoCredit = 2
+  } quad_generator_activity_e;
+
+  // a cycle of z_lookup
+  typedef enum logic [ActivityBits-1:0] {
+    ZLookupBusy = 0,
+    ZLookupNoBurst = 1,
+    ZLookupPendingFull = 2,
+    ZLookupWriteBack = 3,
+    ZLookupFillBuffers = 4,
+    ZLookupRequest = 5
+  } z_lookup_activity_e;
+
+  // a cycle of early_z
+  typedef enum logic [ActivityBits-1:0] {
+    EarlyZBusy = 0,
+    EarlyZNoBurst = 1,
+    EarlyZFill = 2,
+    EarlyZWriteBuffer = 3,
+    EarlyZNoCredit = 4
+  } early_z_activity_e;
 
 endpackage : raster_pkg
 

@@ -36,11 +36,15 @@ module setup
   input  logic             triangle_ready_i,
   output setup_triangle_t  triangle_o,
   output depth_equation_t  equation_o,
-  output draw_state_t      state_o
+  output draw_state_t      state_o,
+
+  // What the cycle is spent on; whether nothing is left to do.
+  output setup_activity_e  activity_o,
+  output logic             idle_o
 );
 
   // Cull stage and queue.
-  logic     taken, judged, verdict_valid, decide;
+  logic     taken, judged, verdict_valid, decide, queue_empty;
   verdict_t judged_verdict, verdict;
 
   assign taken = triangle_valid_i & triangle_ready_o;
@@ -67,7 +71,8 @@ module setup
     .data_i          (judged_verdict),
     .pop_valid_o     (verdict_valid),
     .pop_ready_i     (decide),
-    .data_o          (verdict)
+    .data_o          (verdict),
+    .empty_o         (queue_empty)
   );
 
   // Decision.
@@ -169,7 +174,9 @@ module setup
   );
 
   // All three count the same credits; one of them says so.
-  logic unused_known_ready, unused_known_valid, unused_edges_ready, unused_edges_valid;
+  logic fifo_empty;
+  logic unused_known_ready, unused_known_valid, unused_known_empty;
+  logic unused_edges_ready, unused_edges_valid, unused_edges_empty;
 
   credit_fifo #(
     .Width ($bits(known_t)),
@@ -183,7 +190,8 @@ module setup
     .data_i          (known_d),
     .pop_valid_o     (unused_known_valid),
     .pop_ready_i     (leave),
-    .data_o          (known)
+    .data_o          (known),
+    .empty_o         (unused_known_empty)
   );
 
   credit_fifo #(
@@ -198,7 +206,8 @@ module setup
     .data_i          (edges_d),
     .pop_valid_o     (unused_edges_valid),
     .pop_ready_i     (leave),
-    .data_o          (edges)
+    .data_o          (edges),
+    .empty_o         (unused_edges_empty)
   );
 
   credit_fifo #(
@@ -213,7 +222,8 @@ module setup
     .data_i          (quotient & {ReciprocalBits{reciprocal_kept}}),
     .pop_valid_o     (triangle_valid_o),
     .pop_ready_i     (triangle_ready_i),
-    .data_o          (equation_o.reciprocal)
+    .data_o          (equation_o.reciprocal),
+    .empty_o         (fifo_empty)
   );
 
   assign leave = triangle_valid_o & triangle_ready_i;
@@ -236,5 +246,10 @@ module setup
   assign equation_o.min_code = edges.min_code;
   assign equation_o.max_code = edges.max_code;
   assign state_o             = known.state;
+
+  assign activity_o = decide         ? SetupBusy
+                      : !verdict_valid ? SetupNoTriangle
+                      : !divider_free  ? SetupDivider : SetupNoCredit;
+  assign idle_o     = queue_empty & fifo_empty;
 
 endmodule

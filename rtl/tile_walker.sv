@@ -45,7 +45,11 @@ module tile_walker
   // edge_evaluator
   output logic                job_valid_o,
   input  logic                job_ready_i,
-  output tile_job_t           job_o
+  output tile_job_t           job_o,
+
+  // What the cycle is spent on; whether nothing is left to do.
+  output tile_walker_activity_e activity_o,
+  output logic                idle_o
 );
 
   localparam int unsigned BlockLog2 = $clog2(BlockSize);
@@ -126,7 +130,7 @@ module tile_walker
   // A step: decided in its last cycle, where it waits for a credit if it gives out a job.
   logic   busy_q, idle_q;  // neither in reset
   phase_t phase_q;
-  logic   last_phase, reject, give_out, credit, emit, last_step, done;
+  logic   last_phase, reject, give_out, credit, emit, last_step, done, fifo_empty;
 
   assign last_phase = phase_q == phase_t'(StepInterval - 1);
   assign reject     = |outside;
@@ -208,7 +212,13 @@ module tile_walker
     .data_i          (job_q),
     .pop_valid_o     (job_valid_o),
     .pop_ready_i     (job_ready_i),
-    .data_o          (job_o)
+    .data_o          (job_o),
+    .empty_o         (fifo_empty)
   );
+
+  assign activity_o = advance || (busy_q && !last_phase) ? TileWalkerBusy
+                      : busy_q ? TileWalkerNoCredit
+                      : load   ? TileWalkerLoad : TileWalkerNoTriangle;
+  assign idle_o     = ~busy_q & fifo_empty;
 
 endmodule

@@ -86,6 +86,7 @@ module z_lookup
   output logic [ZParts-1:0] [TileBits-1:0]       slot_tile_o,
   output logic [ZParts-1:0]                      slot_half_o,
 
+  output z_lookup_activity_e                     activity_o,
   output logic                                   idle_o
 );
 
@@ -365,6 +366,11 @@ module z_lookup
   end
 
   assign beat_ready_o = middle_q | (credit_q & (fresh_q ? missed_o == '0 : left_q == '0));
+  assign activity_o   = beat_valid_i && beat_ready_o ? ZLookupBusy
+                        : resolve                    ? ZLookupRequest
+                        : left != '0 && leaving_i    ? ZLookupWriteBack
+                        : left != '0                 ? ZLookupFillBuffers
+                        : beat_valid_i               ? ZLookupPendingFull : ZLookupNoBurst;
   assign idle_o       = ~middle_q & ~fresh_q & free_q == credit_t'(PendingDepth);
 
 `ifndef SYNTHESIS

@@ -102,6 +102,7 @@ module z_test
   input  logic [ZParts-1:0] [Ways-1:0]           dropped_i,
 
   output logic                                   written_o,     // the write buffer is empty
+  output early_z_activity_e                      activity_o,
   output logic                                   idle_o
 );
 
@@ -277,10 +278,14 @@ module z_test
     end
   end
 
-  logic ready_to_begin;
-  assign ready_to_begin = resolved_q != '0 && filled_q >= wanted_fills
-                          && buffer_count_t'(WriteBuffers) - buffers_q >= wanted_buffers
-                          && fifo_free_q != '0;
+  logic there, buffers_free, ready_to_begin;
+  assign there          = resolved_q != '0 && filled_q >= wanted_fills;
+  assign buffers_free   = buffer_count_t'(WriteBuffers) - buffers_q >= wanted_buffers;
+  assign ready_to_begin = there && buffers_free && fifo_free_q != '0;
+  assign activity_o     = !valid_q        ? EarlyZNoBurst
+                          : fire          ? EarlyZBusy
+                          : !there        ? EarlyZFill
+                          : !buffers_free ? EarlyZWriteBuffer : EarlyZNoCredit;
   assign fire           = valid_q & (~first_q | ready_to_begin);
   assign swap           = fire & first_q;
   assign burst_done_o   = fire & beat_q.last;
@@ -563,7 +568,7 @@ module z_test
   end
 
   // Results. The FIFO has room for whole bursts, so the credit of a burst is credit for its beats.
-  logic         result_q, reserve_ready;
+  logic         result_q, reserve_ready, unused_empty;
   tested_beat_t result_beat_q;
 
   always_ff @(posedge clk_i) begin
@@ -592,11 +597,13 @@ module z_test
     .data_i          (result_beat_q),
     .pop_valid_o     (beat_valid_o),
     .pop_ready_i     (beat_ready_i),
-    .data_o          (beat_o)
+    .data_o          (beat_o),
+    .empty_o         (unused_empty)
   );
 
-  logic unused_reserve_ready;
-  assign unused_reserve_ready = reserve_ready;
+  // Both count bursts here, not beats.
+  logic unused_fifo;
+  assign unused_fifo = reserve_ready ^ unused_empty;
 
   assign last_popped = beat_valid_o & beat_ready_i & beat_o.last;
   assign written_o   = buffers_q == '0;

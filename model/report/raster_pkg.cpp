@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "halfspace/numerics/widths.hpp"
+#include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -106,14 +107,39 @@ std::string packed_struct(std::string_view type, std::string_view meaning) {
   return text + "  } " + std::string(type) + ";\n";
 }
 
+/// "no_triangle" -> "NoTriangle".
+std::string camel_case(std::string_view name) {
+  std::string text;
+  bool up = true;
+  for (const char c : name) {
+    if (c != '_') {
+      text += up ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+    }
+    up = c == '_';
+  }
+  return text;
+}
+
+/// What a stage spends a cycle on, in the order of StageInfo: its counters have the same numbers.
+std::string activity_enum(const StageInfo& stage) {
+  const std::string prefix = camel_case(stage.name);
+  std::string text = "\n  // a cycle of " + std::string(stage.name) + "\n  typedef enum logic [ActivityBits-1:0] {\n";
+  text += "    " + prefix + "Busy = 0";
+  for (std::size_t i = 0; i < stage.stall.size() && !stage.stall[i].empty(); ++i) {
+    text += ",\n    " + prefix + camel_case(stage.stall[i]) + " = " + std::to_string(i + 1);
+  }
+  return text + "\n  } " + std::string(stage.name) + "_activity_e;\n";
+}
+
 }  // namespace
 
 std::string raster_pkg() {
   std::string text =
       R"(// Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp and
-// model/units/link_packets.hpp: change those and print this file again. A configuration is chosen by defines:
+// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp,
+// model/units/link_packets.hpp and model/timing/cycle_stats.hpp: change those and print this file
+// again. A configuration is chosen by defines:
 )";
   for (const Parameter& parameter : kParameters) {
     text += "// -D" + std::string(parameter.define) + "=" + std::string(parameter.legal) + "\n";
@@ -157,6 +183,13 @@ std::string raster_pkg() {
   text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
   text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");
   text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
+  text += "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait\n";
+  text += "  parameter int unsigned StageCount = " + std::to_string(kStages) + ";\n";
+  text += "  parameter int unsigned ActivityCount = " + std::to_string(kMostStallReasons + 1) + ";\n";
+  text += "  parameter int unsigned ActivityBits = $clog2(ActivityCount);\n";
+  for (const StageInfo& stage : kStageInfo) {
+    text += activity_enum(stage);
+  }
   text += "\nendpackage : raster_pkg\n\n";
   for (const Parameter& parameter : kParameters) {
     text += "`undef " + std::string(parameter.define) + "\n";

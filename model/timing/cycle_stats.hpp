@@ -31,7 +31,7 @@ inline constexpr std::array<StageInfo, kStages> kStageInfo{{
     {"tile_walker", {"no_triangle", "load", "no_credit"}},
     {"edge_evaluator", {"no_tile", "no_credit"}},
     {"quad_generator", {"no_coverage", "no_credit"}},
-    {"z_lookup", {"no_burst", "pending_full", "fill_buffers", "write_back", "request"}},
+    {"z_lookup", {"no_burst", "pending_full", "write_back", "fill_buffers", "request"}},
     {"early_z", {"no_burst", "fill", "write_buffer", "no_credit"}},
 }};
 
@@ -45,8 +45,8 @@ inline constexpr std::size_t kWalkerNoCredit = 2;
 inline constexpr std::size_t kEdgeNoCredit = 1;
 inline constexpr std::size_t kQuadNoCredit = 1;
 inline constexpr std::size_t kLookupPendingFull = 1;
-inline constexpr std::size_t kLookupFillBuffers = 2;
-inline constexpr std::size_t kLookupWriteBack = 3;
+inline constexpr std::size_t kLookupWriteBack = 2;
+inline constexpr std::size_t kLookupFillBuffers = 3;
 inline constexpr std::size_t kLookupRequest = 4;
 inline constexpr std::size_t kTestFill = 1;
 inline constexpr std::size_t kTestWriteBuffer = 2;

@@ -58,6 +58,30 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
       .sub_pixel_bits = config.sub_pixel_bits};
 }
 
+DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
+                                  std::uint32_t clear_code) {
+  const auto flag = [](bool on) { return static_cast<std::uint8_t>(on ? 1 : 0); };
+  DrawStatePacket packet{.front_positive_area = flag(setup.front_positive_area),
+                         .cull_front = flag(setup.cull_front),
+                         .cull_back = flag(setup.cull_back),
+                         .bottom_left_rule = flag(setup.bottom_left_rule),
+                         .empty = flag(setup.bounds.empty()),
+                         .format = static_cast<std::uint8_t>(setup.depth_format),
+                         .test = flag(early_z.test),
+                         .write = flag(early_z.write),
+                         .func = static_cast<std::uint8_t>(early_z.func),
+                         .clear_code = clear_code,
+                         .first_tile = place.first_tile,
+                         .tiles_x = static_cast<std::uint16_t>(place.tiles_x == 0 ? 0 : place.tiles_x - 1)};
+  if (!setup.bounds.empty()) {
+    packet.x_first = static_cast<std::uint16_t>(setup.bounds.x_first);
+    packet.x_last = static_cast<std::uint16_t>(setup.bounds.x_last);
+    packet.y_first = static_cast<std::uint16_t>(setup.bounds.y_first);
+    packet.y_last = static_cast<std::uint16_t>(setup.bounds.y_last);
+  }
+  return packet;
+}
+
 std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible) {
   std::vector<Surface> surfaces;
   for (const Target& target : frame.targets) {

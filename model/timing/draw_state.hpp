@@ -5,6 +5,7 @@
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/frame_result.hpp"
 #include "halfspace/units/early_z.hpp"
+#include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
 #include "halfspace/units/z_cache.hpp"
@@ -20,6 +21,11 @@ ZCacheShape z_cache_shape(const Config& config);
 /// `format` is that of the target's depth surface, none where it has none.
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
+
+/// All that travels with the triangles of a draw. `place` and `clear_code` are those of its depth surface, if it
+/// has one.
+DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
+                                  std::uint32_t clear_code);
 
 /// Depth surfaces as they are before the first command, with no clear: depth 1.
 std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible);

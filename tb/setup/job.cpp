@@ -112,24 +112,4 @@ std::vector<std::uint32_t> output_words(const SetupJob& job, const SetupTriangle
   return words;
 }
 
-DrawStatePacket state_packet(const SetupState& setup, const EarlyZState& early_z) {
-  DrawStatePacket packet;
-  packet.front_positive_area = setup.front_positive_area ? 1 : 0;
-  packet.cull_front = setup.cull_front ? 1 : 0;
-  packet.cull_back = setup.cull_back ? 1 : 0;
-  packet.bottom_left_rule = setup.bottom_left_rule ? 1 : 0;
-  packet.empty = setup.bounds.empty() ? 1 : 0;
-  if (!setup.bounds.empty()) {
-    packet.x_first = static_cast<std::uint16_t>(setup.bounds.x_first);
-    packet.x_last = static_cast<std::uint16_t>(setup.bounds.x_last);
-    packet.y_first = static_cast<std::uint16_t>(setup.bounds.y_first);
-    packet.y_last = static_cast<std::uint16_t>(setup.bounds.y_last);
-  }
-  packet.format = static_cast<std::uint8_t>(setup.depth_format);
-  packet.test = early_z.test ? 1 : 0;
-  packet.write = early_z.write ? 1 : 0;
-  packet.func = static_cast<std::uint8_t>(early_z.func);
-  return packet;
-}
-
 }  // namespace halfspace::tb

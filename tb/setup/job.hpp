@@ -35,7 +35,4 @@ void pack_job(const SetupJob& job, const Widths& widths, std::span<std::uint32_t
 [[nodiscard]] std::vector<std::uint32_t> output_words(const SetupJob& job, const SetupTriangle& triangle,
                                                       const SetupModel& model);
 
-/// The packets of a draw's state; the bounds may be empty.
-[[nodiscard]] DrawStatePacket state_packet(const SetupState& setup, const EarlyZState& early_z);
-
 }  // namespace halfspace::tb

@@ -33,6 +33,9 @@ module setup_link
   assign {triangle_in, state_in} = packet_i;
   assign packet_o = {triangle_out, equation_out, state_out};
 
+  setup_activity_e unused_activity;
+  logic            unused_idle;
+
   setup #(
     .QueueDepth (QueueDepth),
     .FifoDepth  (FifoDepth),
@@ -50,7 +53,9 @@ module setup_link
     .triangle_ready_i (triangle_ready_i),
     .triangle_o       (triangle_out),
     .equation_o       (equation_out),
-    .state_o          (state_out)
+    .state_o          (state_out),
+    .activity_o       (unused_activity),
+    .idle_o           (unused_idle)
   );
 
 endmodule

@@ -205,10 +205,10 @@ class RecurrenceCore {
     T there{};
     std::size_t sent = 0;
     for (const ZMiss& part : misses) {
-      const T buffer = part.fetch ? later(resolve_next, fifo(Fifo::kFillBuffers).usable(sent)) : resolve_next;
-      const T r = later(buffer, out_.get(part.line));
+      const T out = later(resolve_next, out_.get(part.line));
+      const T r = part.fetch ? later(out, fifo(Fifo::kFillBuffers).usable(sent)) : out;
       if constexpr (Probe::kLooks) {
-        probe_.request(moved, resolve_next, buffer, r);
+        probe_.request(moved, resolve_next, out, r);
       }
       resolve_next = r + 1;
       if (!part.fetch) {

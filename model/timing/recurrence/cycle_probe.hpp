@@ -9,51 +9,12 @@
 #include <vector>
 
 #include "halfspace/timing/cycle_stats.hpp"
+#include "halfspace/timing/link_meter.hpp"
 #include "halfspace/timing/pipeline.hpp"
 #include "halfspace/timing/recurrence/cycle_observer.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 
 namespace halfspace {
-
-/// Occupancy of a link from the cycles in which its packets take and return their credits, in order.
-class LinkMeter {
- public:
-  LinkMeter() = default;
-  explicit LinkMeter(int capacity) : cycles_(static_cast<std::size_t>(capacity) + 1) {}
-
-  /// Credit in use from cycle `take` on, usable again in cycle `back`. Both never go back in time.
-  void add(std::uint64_t take, std::uint64_t back) {
-    return_up_to(take);
-    pass(take);
-    back_[taken_++ % kMostCredits] = back;
-  }
-
-  /// The cycles by occupancy, up to cycle `end`, by which all credits are back.
-  Occupancy finish(std::uint64_t end) {
-    return_up_to(end);
-    pass(end);
-    return cycles_;
-  }
-
- private:
-  void return_up_to(std::uint64_t cycle) {
-    while (returned_ != taken_ && back_[returned_ % kMostCredits] <= cycle) {
-      pass(back_[returned_ % kMostCredits]);
-      ++returned_;
-    }
-  }
-
-  void pass(std::uint64_t cycle) {
-    cycles_[taken_ - returned_] += cycle - last_;
-    last_ = cycle;
-  }
-
-  Occupancy cycles_;
-  std::array<std::uint64_t, kMostCredits> back_{};
-  std::size_t taken_ = 0;
-  std::size_t returned_ = 0;
-  std::uint64_t last_ = 0;
-};
 
 /// What RecurrenceCore tells. Every stage's cycles are split at the terms that held its packet back, in the
 /// order of the stall reasons. With kObserved there is somebody who wants them one by one: a type of its own,
@@ -123,12 +84,13 @@ class CycleProbe {
     note(&PacketTimes::f, f);
   }
 
-  /// A request that could be sent from `ready` on found a fill buffer in `buffer` and was sent in `r`; of
-  /// these cycles those count in which no beat moves any more, from `moved` on.
-  void request(Cycle moved, Cycle ready, Cycle buffer, Cycle r) {
+  /// A missing part that could be resolved from `ready` on was out of the cache from `out` on, and resolved in
+  /// `r`, when a fill buffer was free; of these cycles those count in which no beat moves any more, from
+  /// `moved` on.
+  void request(Cycle moved, Cycle ready, Cycle out, Cycle r) {
     const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };
-    wait(Stage::kZLookup, stall::kLookupFillBuffers, after(ready), after(buffer));
-    wait(Stage::kZLookup, stall::kLookupWriteBack, after(buffer), after(r));
+    wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
+    wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
     wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(r + 1));
   }
 

@@ -132,15 +132,14 @@ Cycle EarlyZ::resolve(int part, Cycle earliest) {
     wait(exit_changed_);
   }
   const bool fetch = !lines_.cleared(line);
-  lookup_meter_.waits_for(stall::kLookupFillBuffers);
-  const Cycle buffer = fetch ? fills_.credit(1) : 0;
-  lookup_meter_.stalled(stall::kLookupFillBuffers, buffer);
-  lookup_meter_.waits_for(stall::kLookupWriteBack);
   while (exits_[line].write > writes_done_) {
     wait(exit_changed_);
   }
   const Cycle left = exits_[line].left;
   lookup_meter_.stalled(stall::kLookupWriteBack, left);
+  lookup_meter_.waits_for(stall::kLookupFillBuffers);
+  const Cycle buffer = fetch ? fills_.credit(1) : 0;
+  lookup_meter_.stalled(stall::kLookupFillBuffers, buffer);
   const Cycle at = std::max({earliest, buffer, left});
   run_.clock.wait_until(at);
 

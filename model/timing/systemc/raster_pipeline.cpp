@@ -146,22 +146,7 @@ void RasterPipeline::end_frame(Cycle cycles) {
   for (StageMeter* const meter : meters_) {
     meter->end_frame(cycles);
   }
-  FrameResult& result = run_.result;
-  Cycle end = 0;
-  for (DrawWork& work : run_.works) {
-    if (work.is_clear()) {
-      result.drawn_clears += work.counters;
-      continue;
-    }
-    result.draws.push_back({.command = work.command, .surface = work.surface, .counters = work.counters});
-    result.counters += work.counters;
-    if (work.surface != kNoSurface) {
-      result.surfaces[work.surface].counters += work.counters;
-    }
-    end = work.has_burst ? work.cycles.end : end;
-    work.cycles.end = end;
-    run_.cycles.draws.push_back(std::move(work.cycles));
-  }
+  collect_draws(run_.works, run_.result, run_.cycles);
   bound_ = false;
 }
 

@@ -9,34 +9,16 @@
 #include "halfspace/config/config.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
-#include "halfspace/timing/draw_state.hpp"
 #include "halfspace/timing/frame_result.hpp"
+#include "halfspace/timing/frame_source.hpp"
 #include "halfspace/timing/pipeline.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 #include "halfspace/timing/systemc/sim_clock.hpp"
 
 namespace halfspace::systemc {
 
-/// A draw, or a clear that is drawn. Every token points to its own: each unit is at another draw.
-struct DrawWork {
-  std::uint32_t draw = kNoDraw;  ///< counts the draws of the frame
-  std::uint32_t command = 0;     ///< index in Frame::commands
-  std::uint32_t surface = kNoSurface;
-  std::uint32_t first_triangle = 0;  ///< triangles of the draws before
-  SetupState setup;
-  EarlyZState early_z;
-  bool keeps_visible = false;  ///< its survivors go into Surface::visible
-  bool record_quads = false;
-  bool record_decisions = false;
-  bool record_jobs = false;
-  bool has_burst = false;
-  Counters counters;
-  DrawCycles cycles;
-
-  [[nodiscard]] bool is_clear() const { return draw == kNoDraw; }
-  /// Cycles of a clear belong to the frame only.
-  [[nodiscard]] CycleStats* stats() { return is_clear() ? nullptr : &cycles.stats; }
-};
+/// Every token points to its own: each unit is at another draw.
+using DrawWork = DrawContext;
 
 /// Counts the packets between source and sink.
 class PacketsInPipe {

@@ -5,12 +5,6 @@
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace::systemc {
-namespace {
-
-/// Triangles that the front end makes in one go.
-constexpr std::uint32_t kFrontEndBatch = 256;
-
-}  // namespace
 
 Source::Source(const sc_core::sc_module_name& name, RunState& run, FrameControl& control)
     : sc_module(name), out("out"), depth("depth"), run_(run), control_(control) {
@@ -66,21 +60,10 @@ void Source::execute_commands() {
 void Source::begin_frame() {
   in_frame_ = true;
   done_ = 0;
-  draws_ = 0;
-  first_triangle_ = 0;
   triangles_ = 0;
   next_arrival_ = 0;
-  const std::vector<Command>& commands = run_.frame->commands;
-  draws_of_frame_ = static_cast<std::size_t>(std::count_if(
-      commands.begin(), commands.end(), [](const Command& c) { return c.kind == CommandKind::kDraw; }));
   control_.begin_frame();
-  depth_written_.assign(run_.result.surfaces.size(), false);
-  for (const Command& command : commands) {
-    const std::uint32_t surface = run_.frame->targets[command.target].depth_surface;
-    if (command.kind == CommandKind::kDraw && command.has(Flag::kDepthWrite) && surface != kNoSurface) {
-      depth_written_[surface] = true;
-    }
-  }
+  frame_.emplace(*run_.frame, run_.config, run_.observer, run_.result, run_.works);
 }
 
 /// Waits for the first cycle in which everything has left the pipe, and returns it.
@@ -101,54 +84,12 @@ void Source::end_frame() {
 }
 
 void Source::execute(std::uint32_t index) {
-  const Command& command = run_.frame->commands[index];
-  if (command.kind == CommandKind::kClear) {
-    clear(command);
-    return;
-  }
-  draw(command, index);
-  if (run_.observer != nullptr) {
-    run_.observer->draw_done(draws_, draws_of_frame_);
-  }
-}
-
-void Source::draw(const Command& command, std::uint32_t index) {
-  const Target& target = run_.frame->targets[command.target];
-  const std::uint32_t number = target.depth_surface;
-  const bool has_depth = number != kNoSurface;
-  const DepthFormat format = has_depth ? run_.result.surfaces[number].format : DepthFormat::kNone;
-  DrawWork& work = run_.works.emplace_back();
-  work.draw = draws_++;
-  work.command = index;
-  work.surface = number;
-  work.first_triangle = first_triangle_;
-  work.setup = setup_state(command, target, format, run_.config);
-  work.early_z = early_z_state(command, format, run_.config);
-  work.keeps_visible = has_depth && !run_.result.surfaces[number].visible.empty() &&
-                       (work.early_z.write || !depth_written_[number]);
-  if (run_.observer != nullptr) {
-    work.record_quads = run_.observer->wants_quads();
-    work.record_decisions = run_.observer->wants_decisions();
-    work.record_jobs = run_.observer->wants_tile_jobs();
-  }
-  if (command.has(Flag::kNotFilled)) {
-    ++run_.result.draws_not_filled;
-  } else {
-    draw_triangles(command, work);
-  }
-  first_triangle_ += command.index_count / 3;
-}
-
-void Source::draw_triangles(const Command& command, DrawWork& work) {
-  const FrontEnd front_end(*run_.frame, command, work.setup.depth_format, run_.config.sub_pixel_bits);
-  const std::uint32_t count = command.index_count / 3;
-  for (std::uint32_t first = 0; first < count; first += kFrontEndBatch) {
-    batch_.clear();
-    for (std::uint32_t i = first; i < count && i - first < kFrontEndBatch; ++i) {
-      front_end.process(i, batch_, work.counters.front_end);
-    }
-    for (const ScreenTriangle& triangle : batch_) {
-      give(work, triangle);
+  frame_->begin(index);
+  while (const std::optional<SourceItem> item = frame_->next()) {
+    if (item->draw != nullptr) {
+      give(*item->draw, item->triangle);
+    } else {
+      fast_clear(item->surface, item->code);
     }
   }
 }
@@ -159,40 +100,15 @@ void Source::give(DrawWork& work, const ScreenTriangle& triangle) {
   next_arrival_ = out->take({.work = &work, .triangle = triangle}, arrive) + 1;
 }
 
-void Source::clear(const Command& command) {
-  const Target& target = run_.frame->targets[command.target];
-  if (!command.has(Flag::kClearDepth) || target.depth_surface == kNoSurface) {
-    return;
-  }
-  ++run_.result.clears;
-  Surface& surface = run_.result.surfaces[target.depth_surface];
-  const PixelRect rect = drawable_rect(command.scissor, target);
-  const std::uint32_t code = clear_code(surface.format, command.clear_depth);
-  if (!clears_fast(rect, surface, run_.config)) {
-    if (!rect.empty()) {
-      draw_clear(rect, code, target.depth_surface);
-    }
-    return;
-  }
+void Source::fast_clear(std::uint32_t surface, std::uint32_t code) {
   const Cycle begin = drain();
-  depth->clear(target.depth_surface, code);
-  if (!surface.visible.empty()) {
-    surface.visible.fill(rect, kNothingVisible);
+  depth->clear(surface, code);
+  TiledImage<std::uint32_t>& visible = run_.result.surfaces[surface].visible;
+  if (!visible.empty()) {
+    visible.fill({.x_last = visible.width() - 1, .y_last = visible.height() - 1}, kNothingVisible);
   }
-  const std::uint32_t tiles = run_.places[target.depth_surface].tiles;
+  const std::uint32_t tiles = run_.places[surface].tiles;
   next_arrival_ = begin + static_cast<Cycle>(fast_clear_cycles(tiles, run_.config));
-}
-
-void Source::draw_clear(const PixelRect& rect, std::uint32_t code, std::uint32_t surface) {
-  const DrawnClear clear = drawn_clear(rect, code, run_.result.surfaces[surface].format, run_.config);
-  DrawWork& work = run_.works.emplace_back();
-  work.surface = surface;
-  work.setup = clear.setup;
-  work.early_z = clear.early_z;
-  work.keeps_visible = !run_.result.surfaces[surface].visible.empty();
-  for (const ScreenTriangle& triangle : clear.triangle) {
-    give(work, triangle);
-  }
 }
 
 }  // namespace halfspace::systemc

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <systemc>
-#include <vector>
 
-#include "halfspace/scene/front_end.hpp"
+#include "halfspace/timing/frame_source.hpp"
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/setup.hpp"
 
@@ -47,10 +47,7 @@ class Source : public sc_core::sc_module {
   void execute_commands();
   void begin_frame();
   void execute(std::uint32_t index);
-  void draw(const Command& command, std::uint32_t index);
-  void draw_triangles(const Command& command, DrawWork& work);
-  void clear(const Command& command);
-  void draw_clear(const PixelRect& rect, std::uint32_t code, std::uint32_t surface);
+  void fast_clear(std::uint32_t surface, std::uint32_t code);
   void give(DrawWork& work, const ScreenTriangle& triangle);
   Cycle drain();
   void end_frame();
@@ -62,11 +59,7 @@ class Source : public sc_core::sc_module {
   sc_core::sc_event finished_{"finished"};
   std::uint32_t done_ = 0;
   bool in_frame_ = false;
-  std::vector<bool> depth_written_;  ///< by surface: some draw of the frame writes its depth
-  std::vector<ScreenTriangle> batch_;
-  std::uint32_t draws_ = 0;           ///< of the frame, so far
-  std::size_t draws_of_frame_ = 0;    ///< in all
-  std::uint32_t first_triangle_ = 0;  ///< triangles of the draws so far
+  std::optional<FrameSource> frame_;
   std::uint64_t triangles_ = 0;       ///< given to setup
   Cycle next_arrival_ = 0;            ///< the triangle before is taken, and the clear before is done
 };

@@ -1,0 +1,142 @@
+#include "halfspace/timing/frame_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace halfspace {
+namespace {
+
+/// Triangles that the front end makes in one go.
+constexpr std::uint32_t kFrontEndBatch = 256;
+
+}  // namespace
+
+FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserver* observer,
+                         FrameResult& result, std::deque<DrawContext>& draws)
+    : frame_(frame), config_(config), observer_(observer), result_(result), draws_(draws) {
+  depth_written_.assign(result.surfaces.size(), false);
+  for (const Command& command : frame.commands) {
+    if (command.kind != CommandKind::kDraw) {
+      continue;
+    }
+    ++draws_in_frame_;
+    const std::uint32_t surface = frame.targets[command.target].depth_surface;
+    if (command.has(Flag::kDepthWrite) && surface != kNoSurface) {
+      depth_written_[surface] = true;
+    }
+  }
+}
+
+void FrameSource::begin(std::uint32_t command) {
+  batch_.clear();
+  next_in_batch_ = 0;
+  front_end_.reset();
+  fast_clear_.reset();
+  const Command& todo = frame_.commands[command];
+  if (todo.kind == CommandKind::kClear) {
+    begin_clear(todo);
+  } else {
+    begin_draw(todo, command);
+  }
+}
+
+std::optional<SourceItem> FrameSource::next() {
+  if (fast_clear_) {
+    return std::exchange(fast_clear_, std::nullopt);
+  }
+  while (next_in_batch_ == batch_.size() && front_end_ && next_triangle_ < triangle_count_) {
+    fill_batch();
+  }
+  if (next_in_batch_ < batch_.size()) {
+    return SourceItem{.draw = draw_, .triangle = batch_[next_in_batch_++]};
+  }
+  if (std::exchange(tell_done_, false)) {
+    observer_->draw_done(draws_begun_, draws_in_frame_);
+  }
+  return std::nullopt;
+}
+
+void FrameSource::fill_batch() {
+  batch_.clear();
+  next_in_batch_ = 0;
+  for (std::uint32_t i = 0; i < kFrontEndBatch && next_triangle_ < triangle_count_; ++i) {
+    front_end_->process(next_triangle_++, batch_, draw_->counters.front_end);
+  }
+}
+
+void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
+  const Target& target = frame_.targets[command.target];
+  const std::uint32_t number = target.depth_surface;
+  const bool has_depth = number != kNoSurface;
+  const DepthFormat format = has_depth ? result_.surfaces[number].format : DepthFormat::kNone;
+  DrawContext& draw = draws_.emplace_back();
+  draw.draw = draws_begun_++;
+  draw.command = index;
+  draw.surface = number;
+  draw.first_triangle = first_triangle_;
+  draw.setup = setup_state(command, target, format, config_);
+  draw.early_z = early_z_state(command, format, config_);
+  draw.keeps_visible = has_depth && !result_.surfaces[number].visible.empty() &&
+                       (draw.early_z.write || !depth_written_[number]);
+  if (observer_ != nullptr) {
+    draw.record_quads = observer_->wants_quads();
+    draw.record_decisions = observer_->wants_decisions();
+    draw.record_jobs = observer_->wants_tile_jobs();
+    tell_done_ = true;
+  }
+  draw_ = &draw;
+  if (command.has(Flag::kNotFilled)) {
+    ++result_.draws_not_filled;
+  } else {
+    front_end_.emplace(frame_, command, format, config_.sub_pixel_bits);
+    triangle_count_ = command.index_count / 3;
+    next_triangle_ = 0;
+  }
+  first_triangle_ += command.index_count / 3;
+}
+
+void FrameSource::begin_clear(const Command& command) {
+  const Target& target = frame_.targets[command.target];
+  if (!command.has(Flag::kClearDepth) || target.depth_surface == kNoSurface) {
+    return;
+  }
+  ++result_.clears;
+  const Surface& surface = result_.surfaces[target.depth_surface];
+  const PixelRect rect = drawable_rect(command.scissor, target);
+  const std::uint32_t code = clear_code(surface.format, command.clear_depth);
+  if (clears_fast(rect, surface, config_)) {
+    fast_clear_ = SourceItem{.surface = target.depth_surface, .code = code};
+    return;
+  }
+  if (rect.empty()) {
+    return;
+  }
+  const DrawnClear clear = drawn_clear(rect, code, surface.format, config_);
+  DrawContext& draw = draws_.emplace_back();
+  draw.surface = target.depth_surface;
+  draw.setup = clear.setup;
+  draw.early_z = clear.early_z;
+  draw.keeps_visible = !surface.visible.empty();
+  draw_ = &draw;
+  batch_.assign(clear.triangle.begin(), clear.triangle.end());
+}
+
+void collect_draws(std::deque<DrawContext>& draws, FrameResult& result, FrameCycles& cycles) {
+  std::uint64_t end = 0;
+  for (DrawContext& draw : draws) {
+    if (draw.is_clear()) {
+      result.drawn_clears += draw.counters;
+      continue;
+    }
+    result.draws.push_back({.command = draw.command, .surface = draw.surface, .counters = draw.counters});
+    result.counters += draw.counters;
+    if (draw.surface != kNoSurface) {
+      result.surfaces[draw.surface].counters += draw.counters;
+    }
+    end = draw.has_burst ? draw.cycles.end : end;
+    draw.cycles.end = end;
+    cycles.draws.push_back(std::move(draw.cycles));
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,72 @@
+// Counts what every stage spends its cycles on, and the cycles in which memory moves data.
+
+module cycle_counters
+  import raster_pkg::*;
+#(
+  /// Bits of a counter: 50 hold any frame (docs/timing.md).
+  parameter int unsigned CounterBits = 50
+) (
+  input  logic                                          clk_i,
+  input  logic                                          rst_ni,
+
+  input  logic [StageCount-1:0] [ActivityBits-1:0]      activity_i,
+  input  logic                                          read_busy_i,
+  input  logic                                          write_busy_i,
+
+  /// Stage and activity; of stage StageCount, which is memory, 0 reads and 1 writes. 0 where there is no counter.
+  input  logic [$clog2(StageCount+1)+ActivityBits-1:0] select_i,
+  /// One cycle after select_i: the counter as it was in the cycle of select_i.
+  output logic [CounterBits-1:0]                        count_o
+);
+
+  localparam int unsigned StageBits = $clog2(StageCount + 1);
+  typedef logic [CounterBits-1:0] count_t;
+
+  count_t [StageCount-1:0] [ActivityCount-1:0] stage_q;
+  count_t                                      read_q, write_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      stage_q <= '0;
+      read_q  <= '0;
+      write_q <= '0;
+    end else begin
+      for (int unsigned stage = 0; stage < StageCount; stage++) begin
+        for (int unsigned activity = 0; activity < ActivityCount; activity++) begin
+          if (activity_i[stage] == ActivityBits'(activity)) begin
+            stage_q[stage][activity] <= stage_q[stage][activity] + count_t'(1);
+          end
+        end
+      end
+      read_q  <= read_q + count_t'(read_busy_i);
+      write_q <= write_q + count_t'(write_busy_i);
+    end
+  end
+
+  logic [StageBits-1:0]    stage;
+  logic [ActivityBits-1:0] activity;
+  assign {stage, activity} = select_i;
+
+  count_t count_d, count_q;
+
+  always_comb begin
+    count_d = '0;
+    for (int unsigned s = 0; s < StageCount; s++) begin
+      for (int unsigned a = 0; a < ActivityCount; a++) begin
+        if (stage == StageBits'(s) && activity == ActivityBits'(a)) begin
+          count_d = stage_q[s][a];
+        end
+      end
+    end
+    if (stage == StageBits'(StageCount)) begin
+      count_d = activity == '0 ? read_q : activity == ActivityBits'(1) ? write_q : '0;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    count_q <= count_d;
+  end
+
+  assign count_o = count_q;
+
+endmodule
