@@ -1,124 +1,76 @@
-"""Synthesizes a unit with Yosys (pyosys) in the configurations of its benches and prints the cells of each.
+"""Synthesizes the units with Yosys: are there latches, how many multipliers, which memories, gates and longest path.
 
-Fails on a warning, a latch, or a multiplier: constants are multiplied by shifts and adds.
-
-    .venv/bin/python rtl/synth.py edge_evaluator [--tile-size 8] [--sub-pixel-bits 8] [--quick]
+    .venv/bin/python rtl/synth.py [--quick] [UNIT...]           # elaborates only: latches, warnings, multipliers
+    .venv/bin/python rtl/synth.py --library osu018 [UNIT...]    # gates of a library, flip-flops, longest path
+    .venv/bin/python rtl/synth.py --target ecp5 [UNIT...]       # cells of an FPGA
+    .venv/bin/python rtl/synth.py --table [UNIT...]             # both, and the tables of docs/hardware.md
 """
 
 import argparse
-import json
 import pathlib
-import re
-import subprocess
 import sys
-import tempfile
-import time
 
-RTL = pathlib.Path(__file__).resolve().parent
-SOURCES = {
-    "edge_evaluator": [
-        "raster_pkg",
-        "credit_fifo",
-        "pipe_register",
-        "edge_saturate",
-        "edge_steps",
-        "edge_signs",
-        "half_plane",
-        "edge_evaluator",
-    ],
-    "tile_walker": [
-        "raster_pkg",
-        "credit_fifo",
-        "pipe_register",
-        "corner_test",
-        "walk_edge",
-        "walk_position",
-        "tile_walker",
-    ],
-}
-CONFIGURATIONS = [(4, 8), (4, 4), (8, 8), (8, 5), (16, 8), (16, 7)]
-FORBIDDEN = ["$mul", "$div", "$mod", "$dlatch", "$adlatch", "$dlatchsr"]
-# Of the optimizer's own working, not of the design.
-HARMLESS = re.compile(r"ABC: Warning: The network is combinational")
+from synthesis import tables
+from synthesis.runs import Run, missing_tools, synthesize
+from synthesis.units import UNITS
+
+DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 
 
-def synthesize(unit, tile_size, sub_pixel_bits, map_to_gates, statistics):
-    """Runs in a process of its own, because Yosys ends its process on an error."""
-    from pyosys import libyosys as ys
-
-    design = ys.Design()
-    files = " ".join(str(RTL / f"{name}.sv") for name in SOURCES[unit])
-    ys.run_pass(
-        f"read_slang -D SYNTHESIS -D HALFSPACE_TILE_SIZE={tile_size}"
-        f" -D HALFSPACE_SUB_PIXEL_BITS={sub_pixel_bits} --top {unit} {files}",
-        design,
-    )
-    ys.run_pass(f"hierarchy -check -top {unit}; proc; flatten; check -assert", design)
-    ys.run_pass("select -assert-none " + " ".join(f"t:{cell}" for cell in FORBIDDEN), design)
-    if map_to_gates:
-        ys.run_pass(f"synth -top {unit}; opt_clean -purge; check -assert", design)
-        ys.run_pass("select -assert-none t:$_DLATCH*", design)
-    else:
-        ys.run_pass("opt; memory -nomap; opt_clean -purge; check -assert", design)
-    ys.run_pass(f"tee -q -o {statistics} stat -json", design)
+def describe(run: Run) -> str:
+    words = [f"no latch, {len(run.multipliers)} multipliers"]
+    if run.target == "osu018":
+        words.append(f"{sum(run.cells.values())} gates, {tables.flip_flops(run.cells)} of them flip-flops")
+        words.append(f"{run.path.get('ns')} ns from {run.path.get('from')} to {run.path.get('to')}")
+    elif run.target == "ecp5":
+        words += [f"{count} {kind}" for kind, count in sorted(run.cells.items())]
+    return ", ".join(words)
 
 
-def run(unit, tile_size, sub_pixel_bits, map_to_gates):
-    with tempfile.TemporaryDirectory() as folder:
-        statistics = pathlib.Path(folder) / "stat.json"
-        start = time.monotonic()
-        command = [sys.executable, __file__, unit, "--tile-size", str(tile_size)]
-        command += ["--sub-pixel-bits", str(sub_pixel_bits), "--statistics", str(statistics)]
-        command += [] if map_to_gates else ["--quick"]
-        result = subprocess.run(command, capture_output=True, text=True)
-        log = result.stdout + result.stderr
-        warnings = [
-            line
-            for line in log.splitlines()
-            if re.search("warning", line, re.IGNORECASE)
-            and not HARMLESS.search(line)
-            and not re.search(r"\b0 warnings", line)
-        ]
-        name = f"{unit} TileSize={tile_size} SubPixelBits={sub_pixel_bits}"
-        if result.returncode != 0 or warnings:
-            print(f"{name}: FAILED")
-            print("\n".join(warnings) if warnings else "\n".join(log.splitlines()[-15:]))
-            return False
-        cells = json.loads(statistics.read_text())["design"]["num_cells_by_type"]
-        seconds = time.monotonic() - start
-        if map_to_gates:
-            flip_flops = sum(count for kind, count in cells.items() if "DFF" in kind)
-            counts = f"{sum(cells.values()) - flip_flops} gates, {flip_flops} flip-flops"
-        else:
-            counts = f"{sum(cells.values())} cells before mapping to gates"
-        print(f"{name}: {counts} ({seconds:.0f} s)", flush=True)
-        return True
+def run_all(options: argparse.Namespace, targets: list[str]) -> list[tuple[str, Run]]:
+    done = []
+    for name in options.units or UNITS:
+        for configuration in UNITS[name].configurations:
+            if options.only not in f"{configuration.top} {configuration.label}":
+                continue
+            if options.quick and configuration.long:
+                continue
+            for target in targets:
+                if target != "none" and not configuration.measured:
+                    continue
+                run = synthesize(UNITS[name], configuration, target)
+                label = f"{configuration.top} {configuration.label}"
+                verdict = "FAILED" if run.failures else describe(run)
+                print(f"{label} [{target}]: {verdict} ({run.seconds:.1f} s)", flush=True)
+                for failure in run.failures:
+                    print(f"    {failure}", flush=True)
+                done.append((name, run))
+    return done
 
 
-def main():
+def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("unit", choices=SOURCES)
-    parser.add_argument("--tile-size", type=int)
-    parser.add_argument("--sub-pixel-bits", type=int)
-    parser.add_argument("--quick", action="store_true", help="no gates for tiles of 16 x 16 pixels")
-    parser.add_argument("--statistics", help=argparse.SUPPRESS)
+    parser.add_argument("units", nargs="*", metavar="UNIT", help=f"of {', '.join(UNITS)}; all")
+    parser.add_argument("--quick", action="store_true", help="without what takes longer")
+    parser.add_argument("--library", choices=["osu018"], help="map to its gates and time them")
+    parser.add_argument("--target", choices=["ecp5"], help="map to its cells")
+    parser.add_argument("--table", action="store_true", help="map to both and write docs/hardware")
+    parser.add_argument("--docs", type=pathlib.Path, default=DOCS, help="where the table goes")
+    parser.add_argument("--only", default="", metavar="TEXT", help="configurations with this text")
     options = parser.parse_args()
-    if options.statistics:
-        synthesize(
-            options.unit,
-            options.tile_size,
-            options.sub_pixel_bits,
-            not options.quick,
-            options.statistics,
-        )
-        return 0
-    wanted = [
-        (tile_size, bits)
-        for tile_size, bits in CONFIGURATIONS
-        if options.tile_size in (None, tile_size) and options.sub_pixel_bits in (None, bits)
-    ]
-    results = [run(options.unit, *c, not options.quick or c[0] < 16) for c in wanted]
-    return 0 if results and all(results) else 1
+    unknown = set(options.units) - set(UNITS)
+    if unknown:
+        parser.error(f"no such unit: {', '.join(sorted(unknown))}")
+    targets = [target for target in (options.library, options.target) if target]
+    if options.table:
+        targets = ["osu018", "ecp5"]
+    if "osu018" in targets and missing_tools():
+        print(f"synth.py --library osu018 {missing_tools()}", file=sys.stderr)
+        return 1
+    done = run_all(options, targets or ["none"])
+    if options.table:
+        tables.write(options.docs, [(name, run) for name, run in done if not run.failures])
+    return 0 if done and not any(run.failures for _, run in done) else 1
 
 
 if __name__ == "__main__":

@@ -27,6 +27,3 @@ foreach(tile_size 4 8 16)
     endif()
   endforeach()
 endforeach()
-
-add_test(NAME "slow: tile_walker synthesizes" COMMAND ${PROJECT_SOURCE_DIR}/.venv/bin/python ${rtl_dir}/synth.py tile_walker)
-set_tests_properties("slow: tile_walker synthesizes" PROPERTIES LABELS slow)

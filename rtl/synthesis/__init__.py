@@ -1,0 +1,1 @@
+"""What rtl/synth.py is made of."""

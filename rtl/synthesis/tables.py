@@ -1,0 +1,104 @@
+"""The figures: docs/hardware.json, and from it the tables between the marks of docs/hardware.md."""
+
+import json
+import pathlib
+import re
+
+from synthesis.runs import Run
+from synthesis.units import UNITS
+
+ECP5_CELLS = ["LUT4", "CCU2C", "TRELLIS_FF", "MULT18X18D", "DP16KD", "TRELLIS_DPR16X4"]
+
+
+def flip_flops(cells: dict[str, int]) -> int:
+    return sum(count for kind, count in cells.items() if "DFF" in kind)
+
+
+def _entry(run: Run) -> dict:
+    entry = {
+        "top": run.configuration.top,
+        "configuration": run.configuration.label,
+        "multipliers": run.multipliers,
+    }
+    if run.target == "osu018":
+        entry["gates"] = sum(run.cells.values()) - flip_flops(run.cells)
+        entry["flip_flops"] = flip_flops(run.cells)
+        entry["area"] = round(run.area)
+        entry["path"] = run.path
+        entry["memories"] = run.memories
+    else:
+        entry["cells"] = {kind: run.cells.get(kind, 0) for kind in ECP5_CELLS}
+    return entry
+
+
+def write(docs: pathlib.Path, runs: list[tuple[str, Run]]) -> None:
+    """Puts the runs in the place of older ones of the same configuration; those of no unit any more go."""
+    path = docs / "hardware.json"
+    figures = json.loads(path.read_text()) if path.exists() else {}
+    known = {(run.target, run.configuration.top, run.configuration.label): run for _, run in runs}
+    kept = {}
+    for target in ("osu018", "ecp5"):
+        old = {(e["top"], e["configuration"]): e for e in figures.get(target, [])}
+        entries = []
+        for unit in UNITS.values():
+            for configuration in unit.configurations:
+                key = (configuration.top, configuration.label)
+                if (target, *key) in known:
+                    entries.append(_entry(known[(target, *key)]))
+                elif configuration.measured and key in old:
+                    entries.append(old[key])
+        kept[target] = entries
+    docs.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(kept, indent=1) + "\n")
+    _replace(docs / "hardware.md", {"osu018": _library(kept["osu018"]), "ecp5": _ecp5(kept["ecp5"])})
+
+
+def _memory_words(memories: list[dict]) -> str:
+    kept = [memory for memory in memories if memory["kept"]]
+    if not kept:
+        return ""
+    counts: dict[str, int] = {}
+    for memory in kept:
+        shape = f"{memory['words']} x {memory['bits']}"
+        shape += "" if memory["registered"] else " *"
+        counts[shape] = counts.get(shape, 0) + 1
+    return ", ".join(f"{count} of {shape}" if count > 1 else shape for shape, count in counts.items())
+
+
+def _table(head: list[str], rows: list[list[str]]) -> str:
+    lines = [head, ["---" if i < 2 else "---:" for i in range(len(head))], *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def _library(entries: list[dict]) -> str:
+    head = ["module", "configuration", "gates", "flip-flops", "area, um2", "memories", "multipliers", "path, ns", "from", "to"]
+    rows = []
+    for e in entries:
+        figures = [str(e[key]) for key in ("gates", "flip_flops", "area")]
+        path = [str(e["path"]["ns"]), f"`{e['path']['from']}`", f"`{e['path']['to']}`"]
+        words = [_memory_words(e["memories"]), str(len(e["multipliers"]))]
+        rows.append([e["top"], e["configuration"], *figures, *words, *path])
+    return _table(head, rows)
+
+
+def _ecp5(entries: list[dict]) -> str:
+    head = ["module", "configuration", *ECP5_CELLS]
+    rows = [
+        [e["top"], e["configuration"], *(str(e["cells"][kind]) for kind in ECP5_CELLS)]
+        for e in entries
+    ]
+    return _table(head, rows)
+
+
+def _replace(path: pathlib.Path, tables: dict[str, str]) -> None:
+    """The text between `<!-- table: NAME -->` and `<!-- end -->`."""
+    marks = "".join(f"<!-- table: {name} -->\n<!-- end -->\n\n" for name in tables)
+    text = path.read_text() if path.exists() else marks
+    for name, table in tables.items():
+        text = re.sub(
+            rf"(<!-- table: {name} -->\n).*?(<!-- end -->)",
+            lambda match, table=table: f"{match[1]}\n{table}\n\n{match[2]}",
+            text,
+            flags=re.S,
+        )
+    path.write_text(text)

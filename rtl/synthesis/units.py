@@ -1,0 +1,200 @@
+"""What is synthesized: the units, their configurations, and what the design states about each."""
+
+import pathlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+RTL = pathlib.Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """A module with its defines (HALFSPACE_ is put before them) and parameters."""
+
+    top: str
+    defines: Mapping[str, int] = field(default_factory=dict)
+    parameters: Mapping[str, int] = field(default_factory=dict)
+    multipliers: int = 0
+    # The table has it. The others are only elaborated.
+    measured: bool = True
+    # Takes more than a few seconds to elaborate.
+    long: bool = False
+    # Every memory is read through a register, and becomes so many block RAMs of an ECP5.
+    block_rams: int | None = None
+
+    @property
+    def label(self) -> str:
+        words = [f"{key.lower()}={value}" for key, value in self.defines.items()]
+        words += [f"{key}={value}" for key, value in self.parameters.items()]
+        return " ".join(words) or "defaults"
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Its sources are in <list>.f, in the order of their dependencies."""
+
+    name: str
+    lists: tuple[str, ...]
+    configurations: tuple[Configuration, ...]
+
+    def files(self) -> list[str]:
+        names = [name for files in self.lists for name in (RTL / f"{files}.f").read_text().split()]
+        return [str(RTL / name) for name in dict.fromkeys(names)]
+
+
+def _edge_evaluator() -> Unit:
+    def of(tile, sub_pixel, measured=True, **parameters):
+        defines = {"TILE_SIZE": tile, "SUB_PIXEL_BITS": sub_pixel}
+        return Configuration("edge_evaluator", defines, parameters, measured=measured)
+
+    return Unit(
+        "edge_evaluator",
+        ("edge_evaluator",),
+        (
+            of(4, 8),
+            of(8, 8),
+            of(16, 8),
+            of(8, 4),
+            of(8, 8, PipeStages=1),
+            of(8, 8, PipeStages=3),
+            of(4, 4, measured=False),
+            of(16, 7, measured=False),
+        ),
+    )
+
+
+def _tile_walker() -> Unit:
+    def of(tile, sub_pixel, measured=True, **parameters):
+        defines = {"TILE_SIZE": tile, "SUB_PIXEL_BITS": sub_pixel}
+        return Configuration("tile_walker", defines, parameters, measured=measured)
+
+    return Unit(
+        "tile_walker",
+        ("tile_walker",),
+        (
+            of(4, 8),
+            of(8, 8),
+            of(16, 8),
+            of(8, 4),
+            of(8, 8, BlockLevel="1'b0"),
+            of(4, 5, False, BlockSize=8, StepInterval=8),
+            of(16, 6, False, BlockSize=64, TrivialReject="1'b0"),
+        ),
+    )
+
+
+def _quad_generator() -> Unit:
+    def of(tile, quads, measured=True, **parameters):
+        defines = {"TILE_SIZE": tile, "QUAD_WIDTH": quads}
+        return Configuration("quad_generator", defines, parameters, measured=measured)
+
+    return Unit(
+        "quad_generator",
+        ("quad_generator",),
+        (
+            *(of(8, quads) for quads in (1, 2, 4, 8, 16)),
+            of(4, 4),
+            of(16, 4),
+            of(16, 16, False, FifoDepth=64),
+        ),
+    )
+
+
+def _setup() -> Unit:
+    # setup_cull has two for 2A, setup_edges four for E.
+    def of(sub_pixel, interval, measured=True, **parameters):
+        return Configuration(
+            "setup",
+            {"SUB_PIXEL_BITS": sub_pixel},
+            {"Interval": interval, **parameters},
+            multipliers=6,
+            measured=measured,
+        )
+
+    return Unit(
+        "setup",
+        ("setup",),
+        (
+            *(of(8, interval) for interval in (1, 2, 4, 8, 16)),
+            of(4, 1),
+            of(5, 4, False, BlockLevel="1'b0", FifoDepth=2),
+        ),
+    )
+
+
+SAMPLE_MULTIPLIERS = 6  # of 32 x 32 bits: three weights, two unorm terms, one division of the float32 sum
+
+
+def early_z_multipliers(test_width: int) -> int:
+    """Of all samples of a beat, and the one that numbers the tile: tile_y times the tiles in a row."""
+    return 4 * test_width * SAMPLE_MULTIPLIERS + 1
+
+
+def _early_z() -> Unit:
+    def whole(test_width, measured=True, defines=None, long=False, **parameters):
+        return Configuration(
+            "early_z",
+            {"TEST_WIDTH": test_width, **(defines or {})},
+            parameters,
+            multipliers=early_z_multipliers(test_width),
+            measured=measured,
+            long=long,
+        )
+
+    least = {"TILE_SIZE": 4, "SUB_PIXEL_BITS": 5, "QUAD_WIDTH": 1}
+    parts = {"QUAD_WIDTH": 8, "Z_PARTS": 4, "SUB_PIXEL_BITS": 6}
+    return Unit(
+        "early_z",
+        ("early_z",),
+        (
+            whole(1),
+            whole(1, long=True, Lines=32),
+            whole(4, False, long=True),
+            whole(2, False, parts, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
+            whole(1, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
+        ),
+    )
+
+
+def _early_z_parts() -> Unit:
+    """Modules of early_z on their own: what bounds it, and what grows with what."""
+    return Unit(
+        "early_z_parts",
+        ("early_z",),
+        (
+            Configuration("depth_sample", multipliers=SAMPLE_MULTIPLIERS),
+            *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
+            Configuration("z_lookup", {"Z_PARTS": 4}, {"Lines": 128}, 1),
+            Configuration("z_lookup", {}, {"Lines": 128, "MemoryTiles": 65536}, 1),
+            *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
+            Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
+            Configuration("z_test", {"TEST_WIDTH": 1, "Z_PARTS": 4}),
+        ),
+    )
+
+
+def _memories() -> Unit:
+    """What has to become block RAM, as the default machine has it."""
+    return Unit(
+        "memories",
+        ("early_z", "quad_generator"),
+        (
+            Configuration("z_bank", {}, {"Lines": 128}, block_rams=4),
+            Configuration("sync_ram", {}, {"Width": 391, "Depth": 256}, block_rams=11),
+            Configuration("memory_fifo", {}, {"Width": 133, "Slots": 64}, block_rams=4),
+        ),
+    )
+
+
+UNITS = {
+    unit.name: unit
+    for unit in (
+        _edge_evaluator(),
+        _tile_walker(),
+        _quad_generator(),
+        _setup(),
+        _early_z(),
+        _early_z_parts(),
+        _memories(),
+    )
+}
