@@ -1,10 +1,12 @@
 # halfspace_verilated_runtime: Verilator's run-time library, compiled once for all models.
 #
-# halfspace_verilate(TARGET PREFIX TOP OPTIMIZE SOURCES... ARGS...) verilates at build time and adds the model, class
-# PREFIX, to TARGET, compiled with OPTIMIZE (-O2). Verilator's own verilate() runs at configure time and compiles the run-time library for each target.
+# halfspace_verilate(TARGET PREFIX TOP OPTIMIZE SOURCES... ARGS... [DEPENDS...] [UNCHECKED]) verilates at build time and
+# adds the model, class PREFIX, to TARGET, compiled with OPTIMIZE (-O2). UNCHECKED: without assertions and waveforms.
+# Verilator's own verilate() runs at configure time and compiles the run-time library for each target.
 set(runtime_dir ${VERILATOR_ROOT}/include)
 add_library(halfspace_verilated_runtime STATIC ${runtime_dir}/verilated.cpp ${runtime_dir}/verilated_cov.cpp
                                                ${runtime_dir}/verilated_fst_c.cpp ${runtime_dir}/verilated_threads.cpp)
+set_target_properties(halfspace_verilated_runtime PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_include_directories(halfspace_verilated_runtime SYSTEM PUBLIC ${runtime_dir} ${runtime_dir}/vltstd)
 target_compile_definitions(halfspace_verilated_runtime PUBLIC VM_TRACE=1 VM_TRACE_FST=1 VM_COVERAGE=1)
 find_package(Threads REQUIRED)
@@ -15,15 +17,19 @@ set(halfspace_generated_options -w -fno-sanitize=all -fno-profile-arcs -fno-test
 target_compile_options(halfspace_verilated_runtime PRIVATE ${halfspace_generated_options} -O2)
 
 function(halfspace_verilate target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "PREFIX;TOP;OPTIMIZE" "SOURCES;ARGS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "UNCHECKED" "PREFIX;TOP;OPTIMIZE" "SOURCES;ARGS;DEPENDS")
+  set(checks --assert --trace-fst --trace-structs)
+  if(arg_UNCHECKED)
+    set(checks --no-assert)
+  endif()
   set(dir ${CMAKE_CURRENT_BINARY_DIR}/${arg_PREFIX})
   set(all ${dir}/${arg_PREFIX}__all.cpp)
   add_custom_command(
     OUTPUT ${all} ${dir}/${arg_PREFIX}.h
-    COMMAND ${VERILATOR_BIN} --cc --prefix ${arg_PREFIX} --Mdir ${dir} --top-module ${arg_TOP} -Wall -O3 --assert
-            --trace-fst --trace-structs --x-assign unique --x-initial unique ${arg_ARGS} ${arg_SOURCES}
+    COMMAND ${VERILATOR_BIN} --cc --prefix ${arg_PREFIX} --Mdir ${dir} --top-module ${arg_TOP} -Wall -O3 ${checks}
+            --x-assign unique --x-initial unique ${arg_ARGS} ${arg_SOURCES}
     COMMAND ${CMAKE_COMMAND} -DDIR=${dir} -DALL=${all} -P ${PROJECT_SOURCE_DIR}/tb/one_file.cmake
-    DEPENDS ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tb/one_file.cmake raster_pkg_is_current
+    DEPENDS ${arg_SOURCES} ${arg_DEPENDS} ${PROJECT_SOURCE_DIR}/tb/one_file.cmake raster_pkg_is_current
     COMMENT "Verilating ${arg_PREFIX}" VERBATIM)
   set_source_files_properties(${all} PROPERTIES COMPILE_OPTIONS "${halfspace_generated_options};${arg_OPTIMIZE}")
   target_sources(${target} PRIVATE ${all})

@@ -9,6 +9,7 @@
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/timing/rtl/pipeline_library.hpp"
 
 namespace halfspace {
 namespace {
@@ -79,6 +80,19 @@ std::optional<TimelineRange> parse_range(const char* option, const std::string& 
   return TimelineRange{.first = v[0], .last = v[1]};
 }
 
+/// 0 where the option is not given.
+std::uint64_t parse_seed(const char* option, const std::string& text) {
+  if (text.empty()) {
+    return 0;
+  }
+  const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
+  if (v.size() != 1) {
+    throw InputError(fmt::format("{} is '{}'; it must be an integer, 0 to {}", option, text,
+                                 std::numeric_limits<std::uint64_t>::max()));
+  }
+  return v[0];
+}
+
 }  // namespace
 
 void MachineOptions::add_to(CLI::App& command) {
@@ -142,18 +156,34 @@ void StallOptions::add_to(CLI::App& command) {
 
 StallPlan StallOptions::plan() const {
   StallPlan plan;
-  if (!seed.empty()) {
-    const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(seed, ':');
-    if (v.size() != 1) {
-      throw InputError(fmt::format("--seed is '{}'; it must be an integer, 0 to {}", seed,
-                                   std::numeric_limits<std::uint64_t>::max()));
-    }
-    plan.seed = v[0];
-  }
+  plan.seed = parse_seed("--seed", seed);
   for (const std::string& stall : stalls) {
     set_stall(plan, stall);
   }
   return plan;
+}
+
+void RtlOptions::add_to(CLI::App& command) {
+  command
+      .add_option("--rtl-folder", folder,
+                  "where the verilated pipelines are (default: lib/halfspace beside the program's folder)")
+      ->type_name("DIR");
+  command.add_option("--rtl-seed", seed, "of what the RTL's registers hold before reset (default: 0)")
+      ->type_name("N");
+  command
+      .add_option("--wave", wave, "write an FST waveform; for pipelines with checks: --rtl-folder .../checked")
+      ->type_name("FILE");
+}
+
+std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& config) const {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(
+      config, folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace" : std::filesystem::path(folder),
+      parse_seed("--rtl-seed", seed));
+  if (!wave.empty()) {
+    pipeline->trace_to(wave);
+  }
+  return pipeline;
 }
 
 void TimelineOptions::add_to(CLI::App& command, CLI::Option* out) {

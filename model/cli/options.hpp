@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/timing/rtl/verilated_pipeline.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
@@ -42,6 +44,17 @@ struct StallOptions {
 
   void add_to(CLI::App& command);
   [[nodiscard]] StallPlan plan() const;  ///< throws InputError
+};
+
+/// --rtl-folder, --rtl-seed and --wave: the verilated pipeline of a run.
+struct RtlOptions {
+  std::string folder;  ///< empty: lib/halfspace beside the program's folder
+  std::string seed;
+  std::string wave;
+
+  void add_to(CLI::App& command);
+  /// Throws InputError.
+  [[nodiscard]] std::unique_ptr<rtl::VerilatedPipeline> pipeline(const Config& config) const;
 };
 
 /// --timeline and what part of the frame it shows.

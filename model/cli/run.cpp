@@ -24,6 +24,8 @@
 #include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/functional.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/timing/rtl/pipeline_library.hpp"
+#include "halfspace/timing/rtl/run_rtl.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
 
 namespace halfspace {
@@ -38,6 +40,7 @@ struct RunOptions {
   std::string out;
   std::string tile_jobs;
   std::string vcd;
+  RtlOptions rtl;
   bool quads = false;
   bool tiles = false;
   bool no_pictures = false;
@@ -59,6 +62,7 @@ std::filesystem::path writable_vcd(std::filesystem::path path) {
 struct Times {
   TimedRun packets;
   std::optional<AnalyticFrame> estimate;
+  std::optional<rtl::PacketReport> rtl;  ///< RTL against model
 };
 
 /// A way to have time, and what it can do beside.
@@ -67,29 +71,37 @@ struct Fidelity {
   bool packets;   ///< when every packet moves: stalls can be injected
   bool timeline;  ///< tells where the cycles go
   bool vcd;
+  bool rtl;  ///< verilated
   FrameResult (*run)(const Frame&, const Config&, bool keep_visible, PacketObserver*, Times&,
                      const RunOptions&);
 };
 
 constexpr std::array kFidelities{
-    Fidelity{"functional", false, false, false,
+    Fidelity{"functional", false, false, false, false,
              [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer, Times&,
                 const RunOptions&) { return run_functional(frame, config, keep_visible, observer); }},
-    Fidelity{"analytic", false, false, false,
+    Fidelity{"analytic", false, false, false, false,
              [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
                 Times& times, const RunOptions&) {
                return run_analytic(frame, config, keep_visible, observer, times.estimate.emplace());
              }},
-    Fidelity{"recurrence", true, true, false,
+    Fidelity{"recurrence", true, true, false, false,
              [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
                 Times& times, const RunOptions&) {
                return run_recurrence(frame, config, keep_visible, observer, times.packets);
              }},
-    Fidelity{"systemc", true, false, true,
+    Fidelity{"systemc", true, false, true, false,
              [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
                 Times& times, const RunOptions& options) {
                return run_systemc(frame, config, keep_visible, observer, times.packets,
                                   {.vcd = writable_vcd(options.vcd)});
+             }},
+    Fidelity{"rtl", true, false, false, true,
+             [](const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
+                Times& times, const RunOptions& options) {
+               const std::unique_ptr<rtl::VerilatedPipeline> pipeline = options.rtl.pipeline(config);
+               return run_rtl(frame, config, keep_visible, observer, times.packets, *pipeline,
+                              times.rtl.emplace());
              }},
 };
 
@@ -112,6 +124,9 @@ void check_fidelity(const Fidelity& fidelity, const RunOptions& options) {
   demand(!options.stalls.seed.empty(), "--seed", &Fidelity::packets);
   demand(options.timeline.wanted, "--timeline", &Fidelity::timeline);
   demand(!options.vcd.empty(), "--vcd", &Fidelity::vcd);
+  demand(!options.rtl.wave.empty(), "--wave", &Fidelity::rtl);
+  demand(!options.rtl.folder.empty(), "--rtl-folder", &Fidelity::rtl);
+  demand(!options.rtl.seed.empty(), "--rtl-seed", &Fidelity::rtl);
 }
 
 /// Records what was asked for and shows progress. `timeline` may be null.
@@ -228,7 +243,17 @@ void print_table(const Frame& frame, const FrameResult& result) {
   }
 }
 
-void run(const RunOptions& options) {
+/// What the scoreboard of a verilated run says. Returns whether RTL and model agree.
+bool print_report(const rtl::PacketReport& report) {
+  row("model", report.compared,
+      report.different == 0 ? "packets, pixels and counters compared, all equal"
+                            : fmt::format("packets, pixels and counters compared, {} DIFFER; first: {}",
+                                          report.different, report.first));
+  return report.different == 0;
+}
+
+/// Returns the exit status.
+int run(const RunOptions& options) {
   const Fidelity& fidelity = *std::find_if(kFidelities.begin(), kFidelities.end(), [&](const Fidelity& each) {
     return each.name == options.fidelity;  // one of them is: the parser has seen to it
   });
@@ -276,14 +301,16 @@ void run(const RunOptions& options) {
   } else if (time.estimate != nullptr) {
     print_bounds(*time.estimate);
   }
+  const bool agree = !times.rtl || print_report(*times.rtl);
   if (folder) {
     fmt::print("  results in {}\n", options.out);
   }
+  return agree ? 0 : 1;
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& /*status*/) {
+void add_run_command(CLI::App& app, int& status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
   options->input.add_to(*command);
@@ -304,13 +331,14 @@ void add_run_command(CLI::App& app, int& /*status*/) {
       ->needs(out);
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
+  options->rtl.add_to(*command);
   command->add_option("--vcd", options->vcd, "write what links and stages do as a waveform (systemc)")
       ->type_name("FILE");
   command
       ->add_option("--tile-jobs", options->tile_jobs,
                    "write the tile jobs of the edge evaluator, for its bench")
       ->type_name("FILE");
-  command->callback([options] { run(*options); });
+  command->callback([options, &status] { status = run(*options); });
 }
 
 }  // namespace halfspace

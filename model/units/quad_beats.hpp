@@ -1,8 +1,9 @@
-/// A burst as the beats that cross the link between quad_generator and early_z.
+/// A burst as the beats that cross the links before and behind early_z.
 #pragma once
 
 #include <vector>
 
+#include "halfspace/units/early_z.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/quad_generator.hpp"
 
@@ -27,6 +28,35 @@ std::vector<QuadBeat> quad_beats(const QuadBurst& burst, const Widths& widths) {
   for (QuadBeat& beat : beats) {
     beat.parts = head.parts;
     beat.last = &beat == &beats.back() ? 1 : 0;
+  }
+  return beats;
+}
+
+/// The same burst after the test; `codes` are those of its samples, all 0 where there is no depth surface.
+template <int TileSize>
+std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& passed,
+                                     const TileCodes<TileSize>& codes, const Widths& widths) {
+  const Coverage& coverage = burst.coverage;
+  std::vector<TestedBeat> beats;
+  int quads = 0;
+  for_each_quad<TileSize>(burst, [&](const Quad& quad) {
+    const auto place = static_cast<std::size_t>(quads++ % widths.TestWidth);
+    if (place == 0) {
+      beats.push_back({.slot = coverage.slot, .tile_x = coverage.tile_x, .tile_y = coverage.tile_y});
+    }
+    TestedBeat& beat = beats.back();
+    beat.index[place] = static_cast<std::uint8_t>(quad.y / 2 * (TileSize / 2) + quad.x / 2);
+    beat.mask[place] = quad.mask;
+    beat.passed[place] = quad_bits<TileSize>(passed, quad.x, quad.y);
+    for (int sample = 0; sample < 4; ++sample) {
+      if ((quad.mask >> sample & 1) != 0) {
+        beat.depth[4 * place + static_cast<std::size_t>(sample)] =
+            codes[static_cast<std::size_t>((quad.y + sample / 2) * TileSize + quad.x + sample % 2)];
+      }
+    }
+  });
+  if (!beats.empty()) {
+    beats.back().last = 1;
   }
   return beats;
 }

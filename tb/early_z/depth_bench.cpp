@@ -13,7 +13,7 @@
 
 #include "Vdepth_interpolator.h"
 #include "common/failure.hpp"
-#include "early_z/ports.hpp"
+#include "common/ports.hpp"
 #include "early_z/triangles.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_generator.hpp"

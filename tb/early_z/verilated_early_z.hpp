@@ -9,7 +9,7 @@
 #include <string>
 
 #include "early_z/dut.hpp"
-#include "early_z/ports.hpp"
+#include "common/ports.hpp"
 
 namespace halfspace::tb {
 

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "halfspace/units/packing.hpp"
-#include "halfspace/units/quad_generator.hpp"
+#include "halfspace/units/quad_beats.hpp"
 #include "halfspace/units/tile_mask.hpp"
 
 namespace halfspace::tb {
@@ -214,46 +214,13 @@ class Maker {
         }
       }
     }
-    std::vector<Quad> quads;
-    for_each_quad<TileSize>(burst, [&](const Quad& quad) { quads.push_back(quad); });
     const auto slot = static_cast<std::uint8_t>(command.triangle);
-    const auto index = [](const Quad& quad) {
-      return static_cast<std::uint8_t>(quad.y / 2 * (TileSize / 2) + quad.x / 2);
-    };
-    const auto width = static_cast<std::size_t>(shape_.widths.QuadWidth);
-    for (std::size_t first = 0; first < quads.size(); first += width) {
-      QuadBeat beat{.slot = slot,
-                    .tile_x = burst.coverage.tile_x,
-                    .tile_y = burst.coverage.tile_y,
-                    .e = burst.coverage.e,
-                    .last = first + width >= quads.size()};
-      for (int part = 0; part < parts(); ++part) {
-        beat.parts[static_cast<std::size_t>(part)] = covered >> part & 1;
-      }
-      for (std::size_t i = 0; i < width && first + i < quads.size(); ++i) {
-        beat.index[i] = index(quads[first + i]);
-        beat.mask[i] = quads[first + i].mask;
-      }
+    QuadBurst in_slot = burst;
+    in_slot.coverage.slot = slot;
+    for (const QuadBeat& beat : quad_beats<TileSize>(in_slot, shape_.widths)) {
       pack(beat, shape_.widths, command.beats.emplace_back(words_for(packed_bits<QuadBeat>(shape_.widths))));
     }
-    const auto test_width = static_cast<std::size_t>(shape_.widths.TestWidth);
-    for (std::size_t first = 0; first < quads.size(); first += test_width) {
-      TestedBeat beat{.slot = slot,
-                      .tile_x = burst.coverage.tile_x,
-                      .tile_y = burst.coverage.tile_y,
-                      .last = first + test_width >= quads.size()};
-      for (std::size_t i = 0; i < test_width && first + i < quads.size(); ++i) {
-        const Quad& quad = quads[first + i];
-        beat.index[i] = index(quad);
-        beat.mask[i] = quad.mask;
-        beat.passed[i] = quad_bits<TileSize>(passed, quad.x, quad.y);
-        for (int s = 0; s < 4; ++s) {
-          if ((quad.mask >> s & 1) != 0) {
-            beat.depth[4 * i + static_cast<std::size_t>(s)] =
-                codes[static_cast<std::size_t>((quad.y + s / 2) * TileSize + quad.x + s % 2)];
-          }
-        }
-      }
+    for (const TestedBeat& beat : tested_beats<TileSize>(in_slot, passed, codes, shape_.widths)) {
       pack(beat, shape_.widths,
            command.tested.emplace_back(words_for(packed_bits<TestedBeat>(shape_.widths))));
     }

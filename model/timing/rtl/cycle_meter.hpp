@@ -1,0 +1,64 @@
+/// Where the cycles of the verilated pipeline went, draw by draw: from what its stages do in each cycle and from when
+/// their packets come and go.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+
+#include "halfspace/timing/frame_source.hpp"
+#include "halfspace/timing/link_meter.hpp"
+
+namespace halfspace::rtl {
+
+/// Values of activity_o: 0 is busy, then the stage's reasons to wait in the order of StageInfo.
+inline constexpr std::uint32_t kActivityBits = 3;
+inline constexpr std::uint32_t kActivityMask = (1u << kActivityBits) - 1;
+inline constexpr std::size_t kActivities = kMostStallReasons + 1;
+
+/// Cycles by stage and activity.
+using ActivityCounts = std::array<std::array<std::uint64_t, kActivities>, kStages>;
+
+class CycleMeter {
+ public:
+  using Cycle = std::uint64_t;
+
+  explicit CycleMeter(const Config& config);
+
+  /// In the coming cycle the stage begins with a packet of `draw`.
+  void begins(Stage stage, DrawContext* draw);
+  /// The activities of a cycle, as activity_o has them.
+  void cycle(std::uint32_t activity) {
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+      ++since_[stage][activity >> (stage * kActivityBits) & kActivityMask];
+    }
+  }
+
+  /// A packet takes a credit of the link in this cycle.
+  void take(Link link, DrawContext* draw, Cycle cycle);
+  /// The oldest packet that holds one leaves; the credit can be used again from this cycle on.
+  void give_back(Link link, Cycle usable);
+
+  /// Cycles in which memory moved data for the draw; null: for the flush.
+  void transfer(std::uint64_t CycleStats::*channel, DrawContext* draw, std::uint64_t cycles);
+
+  /// At the end of the frame, when all packets have left.
+  CycleStats finish(Cycle cycles);
+
+ private:
+  struct Held {
+    DrawContext* draw = nullptr;
+    Cycle since = 0;
+  };
+
+  void flush(Stage stage, DrawContext* next);
+  void add(std::size_t stage, std::size_t activity, DrawContext* draw);
+
+  std::array<LinkMeter, kLinks> links_;
+  std::array<std::deque<Held>, kLinks> held_;
+  ActivityCounts since_{};  ///< since the stage's packet has begun
+  std::array<DrawContext*, kStages> current_{};
+  CycleStats frame_;
+};
+
+}  // namespace halfspace::rtl

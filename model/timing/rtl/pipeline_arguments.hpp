@@ -1,0 +1,23 @@
+/// A configuration as Verilator's arguments: the defines of raster_pkg.sv and the parameters of
+/// raster_pipeline.sv.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "halfspace/config/config.hpp"
+#include "halfspace/numerics/widths.hpp"
+
+namespace halfspace::rtl {
+
+/// Tiles of all depth surfaces that the verilated pipelines have flags for.
+inline constexpr std::uint32_t kMemoryTiles = 65536;
+
+[[nodiscard]] Widths widths(const Config& config);
+
+/// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: every key that the RTL knows. The same arguments mean the
+/// same RTL. Throws InputError where there is no RTL for the configuration.
+[[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& config);
+
+}  // namespace halfspace::rtl

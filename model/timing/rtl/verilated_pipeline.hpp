@@ -1,0 +1,89 @@
+/// rtl/raster_pipeline.sv of one configuration, verilated, as its driver sees it: inputs and outputs of a cycle.
+/// tb/raster_pipeline makes it, in a library that is loaded at run time.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace halfspace::rtl {
+
+/// Bits of PipelineOutputs::events: what happens in the cycle, in the order of tb/raster_pipeline's probe.
+namespace event {
+inline constexpr std::uint32_t kDecide = 1u << 0;   ///< setup: a triangle is drawn or dropped
+inline constexpr std::uint32_t kAccept = 1u << 1;   ///< tile_walker takes a triangle
+inline constexpr std::uint32_t kEmit = 1u << 2;     ///< tile_walker makes a tile job
+inline constexpr std::uint32_t kJob = 1u << 3;      ///< edge_evaluator takes one
+inline constexpr std::uint32_t kCoverage = 1u << 4; ///< quad_generator takes a coverage
+inline constexpr std::uint32_t kBeat = 1u << 5;     ///< early_z's lookup takes a beat
+inline constexpr std::uint32_t kFirstBeat = 1u << 6;  ///< the first of its burst
+inline constexpr std::uint32_t kLastBeat = 1u << 7;
+inline constexpr std::uint32_t kTestFirst = 1u << 8;  ///< early_z tests the first beat of a burst
+inline constexpr std::uint32_t kTestLast = 1u << 9;
+inline constexpr int kWritesShift = 10;  ///< lines that enter the write buffer, 3 bits
+}  // namespace event
+
+struct PipelineInputs {
+  bool reset = false;
+  bool triangle_valid = false;
+  bool beat_ready = false;
+  bool fill_valid = false;
+  bool clear_valid = false;
+  bool flush = false;
+  std::uint32_t clear_first = 0;
+  std::uint32_t clear_last = 0;
+  std::uint32_t counter_select = 0;
+  std::vector<std::uint32_t> triangle;  ///< screen_triangle_t; all payloads in packed words
+  std::vector<std::uint32_t> state;     ///< draw_state_t
+  std::vector<std::uint32_t> fill;
+};
+
+/// Memory always takes requests and writes.
+struct PipelineOutputs {
+  bool triangle_ready = false;
+  bool beat_valid = false;
+  bool read_valid = false;
+  bool read_half = false;
+  bool write_valid = false;
+  bool write_half = false;
+  bool write_last = false;
+  bool idle = false;
+  std::uint32_t read_line = 0;
+  std::uint32_t write_line = 0;
+  std::uint32_t activity = 0;  ///< of all stages, 3 bits each, setup's lowest
+  std::uint32_t events = 0;
+  std::uint64_t counter = 0;
+};
+
+class VerilatedPipeline {
+ public:
+  VerilatedPipeline() = default;
+  VerilatedPipeline(const VerilatedPipeline&) = delete;
+  VerilatedPipeline& operator=(const VerilatedPipeline&) = delete;
+  virtual ~VerilatedPipeline() = default;
+
+  /// Clock low, inputs applied; outputs as they are then.
+  virtual void settle(const PipelineInputs& in, PipelineOutputs& out) = 0;
+  virtual void clock_edge() = 0;
+  /// Outputs that are registers, as they are after the clock edge.
+  [[nodiscard]] virtual bool clear_done() const = 0;
+  [[nodiscard]] virtual bool flush_done() const = 0;
+
+  // Payloads in the settled cycle, in packed words; each means something with its event only.
+  [[nodiscard]] virtual std::span<const std::uint32_t> setup_triangle() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> depth_equation() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> draw_state() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> tile_job() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> coverage() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> quad_beat() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> tested_beat() const = 0;
+  virtual void write_data(std::vector<std::uint32_t>& words) const = 0;
+
+  /// An assertion of the RTL has failed; its message is on standard output.
+  [[nodiscard]] virtual bool assertion_failed() const = 0;
+  /// Writes an FST waveform from now on. Throws InputError where the library was built without.
+  virtual void trace_to(const std::filesystem::path& file) = 0;
+};
+
+}  // namespace halfspace::rtl

@@ -1,0 +1,139 @@
+/// rtl::VerilatedPipeline from a verilated class.
+#pragma once
+
+#include <verilated.h>
+#include <verilated_fst_c.h>
+
+#include <memory>
+
+#include "common/ports.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/timing/rtl/verilated_pipeline.hpp"
+
+namespace halfspace::tb {
+
+/// kTraced: the model was verilated with --trace-fst.
+template <class Model, bool kTraced>
+class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
+ public:
+  explicit VerilatedRasterPipeline(std::uint64_t seed) {
+    context_.randReset(2);
+    context_.randSeed(static_cast<int>(seed & 0x7fffffff) | 1);
+    context_.fatalOnError(false);
+    context_.traceEverOn(kTraced);
+    model_ = std::make_unique<Model>(&context_);
+    model_->read_ready_i = 1;
+    model_->write_ready_i = 1;
+    model_->clk_i = 0;
+    model_->eval();
+  }
+  ~VerilatedRasterPipeline() override {
+    // Verilator 5.006 takes the context of its destructors from the thread.
+    Verilated::threadContextp(&context_);
+    if (trace_) {
+      trace_->close();
+    }
+    model_->final();
+  }
+
+  void settle(const rtl::PipelineInputs& in, rtl::PipelineOutputs& out) override {
+    Model& m = *model_;
+    m.rst_ni = in.reset ? 0 : 1;
+    m.triangle_valid_i = in.triangle_valid;
+    if (in.triangle_valid) {
+      set_port(m.triangle_i, in.triangle);
+      set_port(m.state_i, in.state);
+    }
+    m.beat_ready_i = in.beat_ready;
+    m.fill_valid_i = in.fill_valid;
+    if (in.fill_valid) {
+      set_port(m.fill_data_i, in.fill);
+    }
+    m.clear_valid_i = in.clear_valid;
+    set_number(m.clear_first_i, in.clear_first);
+    set_number(m.clear_last_i, in.clear_last);
+    m.flush_i = in.flush;
+    set_number(m.counter_select_i, in.counter_select);
+    m.clk_i = 0;
+    m.eval();
+    dump();
+    out.triangle_ready = m.triangle_ready_o != 0;
+    out.beat_valid = m.beat_valid_o != 0;
+    out.read_valid = m.read_valid_o != 0;
+    out.read_half = m.read_half_o != 0;
+    out.write_valid = m.write_valid_o != 0;
+    out.write_half = m.write_half_o != 0;
+    out.write_last = m.write_last_o != 0;
+    out.idle = m.idle_o != 0;
+    out.read_line = m.read_line_o;
+    out.write_line = m.write_line_o;
+    out.activity = m.activity_o;
+    out.events = m.rootp->raster_pipeline__DOT__u_probe__DOT__events;
+    out.counter = m.counter_o;
+  }
+  void clock_edge() override {
+    model_->clk_i = 1;
+    model_->eval();
+    dump();
+  }
+  [[nodiscard]] bool clear_done() const override { return model_->clear_done_o != 0; }
+  [[nodiscard]] bool flush_done() const override { return model_->flush_done_o != 0; }
+
+  [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__triangle);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> depth_equation() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__equation);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__state);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__tile_job);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> coverage() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__coverage);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> quad_beat() const override {
+    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__quad_beat);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> tested_beat() const override { return words(model_->beat_o); }
+  void write_data(std::vector<std::uint32_t>& data) const override { get_port(model_->write_data_o, data); }
+
+  [[nodiscard]] bool assertion_failed() const override { return context_.gotError(); }
+  void trace_to(const std::filesystem::path& file) override {
+    if constexpr (kTraced) {
+      trace_ = std::make_unique<VerilatedFstC>();
+      model_->trace(trace_.get(), 99);
+      trace_->open(file.c_str());
+    } else {
+      throw InputError(file.string() + ": this pipeline was verilated without waveforms; one with checks has them");
+    }
+  }
+
+ private:
+  template <std::size_t N>
+  static std::span<const std::uint32_t> words(const VlWide<N>& port) {
+    return {&port[0], N};
+  }
+
+  template <class Port>
+  static void set_number(Port& port, std::uint32_t value) {
+    port = static_cast<Port>(value);
+  }
+
+  void dump() {
+    if constexpr (kTraced) {
+      context_.timeInc(1);
+      if (trace_) {
+        trace_->dump(context_.time());
+      }
+    }
+  }
+
+  VerilatedContext context_;
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<VerilatedFstC> trace_;
+};
+
+}  // namespace halfspace::tb
