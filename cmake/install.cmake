@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 install(TARGETS halfspace EXPORT halfspaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS halfspace_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY model/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/halfspace
-        FILES_MATCHING PATTERN "*.hpp" PATTERN cli EXCLUDE PATTERN reference EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN c_api EXCLUDE PATTERN cli EXCLUDE PATTERN reference EXCLUDE)
 install(EXPORT halfspaceTargets NAMESPACE halfspace:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/halfspace)
 
 configure_package_config_file(cmake/halfspaceConfig.cmake.in ${PROJECT_BINARY_DIR}/halfspaceConfig.cmake

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <vector>
 
 namespace halfspace::c_api {
 
@@ -28,25 +29,29 @@ class ExpectedPackets {
     std::copy_n(first, packet_words_, packet.begin());
   }
 
+  /// The packet that was taken last; empty before the first.
+  [[nodiscard]] std::span<const std::uint32_t> last() const { return last_; }
+
   void pop() {
+    last_.resize(packet_words_);
+    peek(0, last_);
     words_.erase(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(packet_words_));
     ++taken_;
   }
-
-  /// Counts a packet that came where none is expected.
-  void count_unexpected() { ++taken_; }
 
   /// Keeps the first `size` packets.
   void truncate(std::size_t size) { words_.resize(size * packet_words_); }
 
   void reset() {
     words_.clear();
+    last_.clear();
     taken_ = 0;
   }
 
  private:
   std::size_t packet_words_;
   std::deque<std::uint32_t> words_;
+  std::vector<std::uint32_t> last_;
   std::uint64_t taken_ = 0;
 };
 

@@ -142,26 +142,36 @@ bool GoldenModel::get(int link, std::uint32_t* packet, int bits) {
 std::optional<std::string> GoldenModel::check(int link, const std::uint32_t* packet, int bits) {
   ExpectedPackets& expected = watched(link);
   const std::vector<std::uint32_t> got = words_of(static_cast<Link>(link), packet, bits);
-  const std::string name = fmt::format("{} packet {}", link_name(link), expected.taken());
+  const char* name = link_name(link);
+  const std::uint64_t number = expected.taken();
+  const bool again = std::ranges::equal(got, expected.last());
   if (expected.size() == 0) {
-    expected.count_unexpected();
-    return name + " came, but none is expected";
+    return again ? fmt::format("{} packet {} came a second time, but none is expected", name, number - 1)
+                 : fmt::format("{} packet {} came, but none is expected", name, number);
   }
   std::vector<std::uint32_t> want(got.size());
   expected.peek(0, want);
-  std::optional<std::string> text;
-  if (want != got) {
-    text = fmt::format("{}: {}", name,
-                       differences(link_fields(static_cast<Link>(link), context().widths), want, got));
-    if (expected.size() > 1) {
-      expected.peek(1, want);
-      if (want == got) {
-        *text += fmt::format(" (it is what packet {} should be)", expected.taken() + 1);
-      }
+  if (want == got) {
+    expected.pop();
+    return std::nullopt;
+  }
+  const std::string fields = differences(link_fields(static_cast<Link>(link), context().widths), want, got);
+  // One packet too few or too many must not make all that follow differ.
+  if (expected.size() > 1) {
+    expected.peek(1, want);
+    if (want == got) {
+      expected.pop();
+      expected.pop();
+      return fmt::format("{} packet {} is missing, packet {} came in its place: {}", name, number, number + 1,
+                         fields);
     }
   }
+  if (again) {
+    return fmt::format("{} packet {} came a second time, in the place of packet {}: {}", name, number - 1,
+                       number, fields);
+  }
   expected.pop();
-  return text;
+  return fmt::format("{} packet {}: {}", name, number, fields);
 }
 
 std::size_t GoldenModel::pending(int link) { return watched(link).size(); }

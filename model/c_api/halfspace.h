@@ -132,9 +132,10 @@ HALFSPACE_API int halfspace_put(halfspace_model* model, int link, const uint32_t
 HALFSPACE_API int halfspace_get(halfspace_model* model, int link, uint32_t* packet, int bits);
 
 /**
- * Takes the next packet expected on a watched link and compares it with the one given: HALFSPACE_OK or
- * HALFSPACE_DIFFERENT, and then halfspace_error() names link, number of the packet (from 0) and each field
- * that differs. A packet where none is expected is different.
+ * Compares a packet with the next one expected on a watched link, and takes that: HALFSPACE_OK or
+ * HALFSPACE_DIFFERENT, and then halfspace_error() names link, number of the packet expected (from 0) and each
+ * field that differs. Where the packet is the one after the next, both are taken and the next is said to be
+ * missing; where it is the one before once more, or none is expected, none is taken.
  */
 HALFSPACE_API int halfspace_check(halfspace_model* model, int link, const uint32_t* packet, int bits);
 

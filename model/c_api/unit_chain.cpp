@@ -12,7 +12,6 @@
 #include "halfspace/units/quad_beats.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/setup.hpp"
-#include "halfspace/units/tested_beats.hpp"
 
 namespace halfspace::c_api {
 namespace {

@@ -1,4 +1,5 @@
-# Installs BUILD into a folder of its own, configures and builds CONSUMER against it, and runs it on SCENE.
+# Installs BUILD into a folder of its own, configures and builds CONSUMER against it, and runs it on SCENE; the same with
+# C_CONSUMER, which uses the C API.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -17,3 +18,15 @@ if(NOT output STREQUAL "19263 quads\n")
   message(FATAL_ERROR "the consumer printed: ${output}")
 endif()
 run(${WORK}/prefix/bin/halfspace --version)
+
+file(REMOVE_RECURSE ${WORK}/c_consumer)
+run(${CMAKE_COMMAND} -S ${C_CONSUMER} -B ${WORK}/c_consumer -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${WORK}/c_consumer)
+foreach(library halfspace_c halfspace_c_static)
+  run(${WORK}/c_consumer/with_${library})
+  if(NOT output STREQUAL "mask 0000000000000006\n")
+    message(FATAL_ERROR "with_${library} printed: ${output}")
+  endif()
+endforeach()
+run(${CMAKE_COMMAND} -E cat ${WORK}/prefix/share/halfspace/halfspace_dpi.sv)
