@@ -30,6 +30,7 @@ module depth_sample
   localparam logic [FormatBits-1:0] Float32 = 4;
 
   typedef logic signed [ExponentBits-1:0] exponent_t;
+  typedef logic signed [StepBits+TileLog2-1:0] steps_t;
 
   // Left shift that brings the top bit of a number to bit 63; 63 for 0 and 1.
   function automatic logic [5:0] leading_zeros(logic [63:0] value);
@@ -43,11 +44,23 @@ module depth_sample
     return count;
   endfunction
 
+  // A step, so many times: a shifted step for each bit of the count, which is too small for a multiplier.
+  function automatic steps_t times(step_t step, logic [TileLog2-1:0] count);
+    steps_t sum;
+    sum = '0;
+    for (int unsigned i = 0; i < TileLog2; i++) begin
+      if (count[i]) begin
+        sum = sum + (steps_t'(step) <<< i);
+      end
+    end
+    return sum;
+  endfunction
+
   // 1: unbiased E at the sample.
   function automatic edge_t edge_at(edge_t origin, logic bias, step_t a, step_t b,
                                     logic [TileLog2-1:0] x, logic [TileLog2-1:0] y);
     edge_t steps;
-    steps = edge_t'(a) * edge_t'($signed({1'b0, x})) + edge_t'(b) * edge_t'($signed({1'b0, y}));
+    steps = edge_t'(times(a, x)) + edge_t'(times(b, y));
     return origin + edge_t'($signed({1'b0, bias})) + (steps <<< SubPixelBits);
   endfunction
 

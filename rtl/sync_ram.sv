@@ -1,4 +1,5 @@
-// A memory with one write port and one registered read port: reads what was written before this cycle.
+// A memory with one write port and one registered read port: reads what was written before this cycle. A word is never
+// read in the cycle in which it is written, because memories differ in what that gives.
 
 module sync_ram #(
   /// Bits of a word.
@@ -17,6 +18,7 @@ module sync_ram #(
   output logic [Width-1:0]       data_o
 );
 
+  (* no_rw_check *) // so synthesis puts nothing around the block RAM for such a cycle
   logic [Width-1:0] memory_q [Depth];
   logic [Width-1:0] data_q;
 
@@ -30,5 +32,11 @@ module sync_ram #(
   end
 
   assign data_o = data_q;
+
+`ifndef SYNTHESIS
+  NoReadOfWhatIsWritten: assert property (@(posedge clk_i)
+      read_i && write_i |-> read_address_i != write_address_i)
+  else $error("a word is read in the cycle in which it is written");
+`endif
 
 endmodule

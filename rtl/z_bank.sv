@@ -17,6 +17,8 @@ module z_bank
   input  logic [3:0] [CodeBits-1:0]  codes_i
 );
 
+  // What the memory gives for a code that is written in the same cycle is not used, so synthesis need not care.
+  (* no_rw_check *)
   logic [3:0] [CodeBits-1:0] memory_q [Lines];
   logic [3:0] [CodeBits-1:0] codes_q, written_q;
   logic [3:0]                forward_q;

@@ -31,6 +31,9 @@ module z_clear_flags #(
   localparam int unsigned WideBits = TileBits + OffsetLog2 + 2; // holds every sum below
 
   typedef logic [WideBits-1:0] wide_t;
+  typedef logic [ClearTiles-1:0] flags_t;
+
+  localparam flags_t All = '1;
 
   function automatic wide_t word_of(logic [TileBits-1:0] tile);
     return wide_t'(tile) >> OffsetLog2;
@@ -44,35 +47,39 @@ module z_clear_flags #(
 
   logic [1:0] found;
   for (genvar bank = 0; bank < 2; bank++) begin : gen_bank
-    logic [ClearTiles-1:0] flags_q [Words];
-    logic [Words-1:0]      valid_q;
+    flags_t           flags_q [Words];
+    logic [Words-1:0] valid_q;
 
     // The word that a clear writes here: that of `first`, or the next.
-    wide_t                 clear_word;
-    logic [ClearTiles-1:0] set;
-    logic                  clear_here, stored_here;
-    address_t              address;
+    wide_t    clear_word;
+    flags_t   window, up_to, set, unset, stored;
+    logic     clear_here, stored_here;
+    address_t address;
 
     assign clear_word  = word_of(first_i) + wide_t'(word_of(first_i) % wide_t'(2) != wide_t'(bank));
     assign clear_here  = clear_i && clear_word >> 1 < wide_t'(Words);
     assign stored_here = stored_i && word_of(stored_tile_i) % wide_t'(2) == wide_t'(bank);
     assign address     = address_t'((clear_i ? clear_word : word_of(stored_tile_i)) >> 1);
 
-    for (genvar i = 0; i < ClearTiles; i++) begin : gen_set
-      wide_t tile;
-      assign tile = (clear_word << OffsetLog2) + wide_t'(i);
-      assign set[i] = tile >= wide_t'(first_i) && tile < wide_t'(first_i) + wide_t'(ClearTiles)
-                      && tile <= wide_t'(last_i);
+    // Of the window that begins with `first`, its word has the bits from there on and the next word those before.
+    assign window    = clear_word == word_of(first_i) ? All << offset_of(first_i)
+                                                      : ~(All << offset_of(first_i));
+    assign up_to     = clear_word < word_of(last_i)    ? All
+                       : clear_word == word_of(last_i) ? ~(All << offset_of(last_i) << 1) : '0;
+    assign set       = window & up_to;
+    assign unset     = stored_here ? flags_t'(1) << offset_of(stored_tile_i) : '0;
+    assign stored    = flags_q[address];
+
+    // A word is written whole; what a clear finds invalid counts as not cleared.
+    always_ff @(posedge clk_i) begin
+      if (clear_here) begin
+        flags_q[address] <= valid_q[address] ? stored | set : set;
+      end else if (stored_here) begin
+        flags_q[address] <= stored & ~unset;
+      end
     end
 
     always_ff @(posedge clk_i) begin
-      for (int unsigned i = 0; i < ClearTiles; i++) begin
-        if (clear_here && (set[i] || !valid_q[address])) begin
-          flags_q[address][i] <= set[i];
-        end else if (stored_here && offset_of(stored_tile_i) == wide_t'(i)) begin
-          flags_q[address][i] <= 1'b0;
-        end
-      end
       if (!rst_ni) begin
         valid_q <= '0;
       end else if (clear_here) begin
@@ -81,7 +88,7 @@ module z_clear_flags #(
     end
 
     address_t read_address;
-    logic [ClearTiles-1:0] word;
+    flags_t   word;
     assign read_address = address_t'(word_of(tile_i) >> 1);
     assign word         = flags_q[read_address] >> offset_of(tile_i);
     assign found[bank]  = word_of(tile_i) % wide_t'(2) == wide_t'(bank)
