@@ -23,7 +23,7 @@ HARMLESS = re.compile(
 )
 # Gates for speed; buffers where the load is high, then sizes. Without them a net of many loads is the longest path.
 ABC_SCRIPT = (
-    "strash; ifraig; scorr; strash; dch; map -D 1; topo; buffer -c; upsize -D 1; dnsize -D 1; stime -p\n"
+    "strash; ifraig; scorr; strash; dch; map -D 1; topo; buffer -N 16; upsize -D 1; dnsize -D 1; stime -p\n"
 )
 ABC_CONSTRAINTS = "set_driving_cell INVX2\nset_load 0.03 [all_outputs]\n"
 PERIOD = 1000.0
@@ -130,7 +130,6 @@ link_design {run.configuration.top}
 create_clock -name clock -period {PERIOD} [get_ports clk_i]
 set_input_delay 0 -clock clock [all_inputs]
 set_output_delay 0 -clock clock [all_outputs]
-set_load 0.03 [all_outputs]
 report_checks -path_delay max -digits 3
 """
     )
@@ -157,6 +156,6 @@ report_checks -path_delay max -digits 3
 def _register(name: str) -> str:
     """The register or port that the netlist's name stands for, without the bit."""
     name = name.replace("\\", "")
-    name = re.sub(r"_DFF[A-Z0-9]+_Q.*$", "", name)
+    name = re.sub(r"DFF[A-Z0-9]+$", "", name)
     name = re.sub(r"(\[\d+\])+$", "", name)
     return re.sub(r"\.(RD|WR)_(DATA|ADDR|EN)$", lambda m: f" ({m[1]}_{m[2]})", name)

@@ -118,6 +118,7 @@ class Job:
         library, script = self.job["library"], self.job["abc"]
         self.run(
             "expose -evert a:kept_memory",
+            "delete -port w:*.RD_CLK w:*.WR_CLK",
             "memory_map",
             "opt_expr",
             "opt_clean",
@@ -132,8 +133,9 @@ class Job:
             f"abc -liberty {library} -constr {self.job['constraints']} -script {script}",
             "setundef -zero",
             "opt_clean -purge",
-            # The flip-flops' names are what a path is known by.
-            "rename -wire",
+            # The flip-flops' names are what a path is known by. Needs to know which of their pins is the output.
+            f"read_liberty -lib {library}",
+            "rename -wire t:DFF*",
             "splitnets -ports",
             "opt_clean -purge",
             f"tee -q -o {self.job['statistics']} stat -json -liberty {library}",
