@@ -1,0 +1,173 @@
+#include "raster_pipeline/fault.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace halfspace::tb {
+namespace {
+
+using namespace rtl;
+
+constexpr std::array<std::pair<const char*, PipelineFault>, 16> kNames{{
+    {"none", PipelineFault::kNone},
+    {"flip-triangle", PipelineFault::kFlipTriangle},
+    {"flip-equation", PipelineFault::kFlipEquation},
+    {"flip-state", PipelineFault::kFlipState},
+    {"flip-job", PipelineFault::kFlipJob},
+    {"flip-coverage", PipelineFault::kFlipCoverage},
+    {"flip-beat", PipelineFault::kFlipBeat},
+    {"flip-tested", PipelineFault::kFlipTested},
+    {"flip-fill", PipelineFault::kFlipFill},
+    {"flip-write", PipelineFault::kFlipWrite},
+    {"drop-triangle", PipelineFault::kDropTriangle},
+    {"drop-tested", PipelineFault::kDropTested},
+    {"late-tested", PipelineFault::kLateTested},
+    {"lose-fill", PipelineFault::kLoseFill},
+    {"activity", PipelineFault::kActivity},
+    {"counter", PipelineFault::kCounter},
+}};
+
+/// What passes counts; the fault happens once, when as many as `at` have passed.
+class FaultyPipeline final : public VerilatedPipeline {
+ public:
+  FaultyPipeline(std::unique_ptr<VerilatedPipeline> pipeline, PipelineFault fault, std::uint64_t at)
+      : pipeline_(std::move(pipeline)), fault_(fault), left_(at) {}
+
+  void settle(const PipelineInputs& in, PipelineOutputs& out) override {
+    in_ = in;
+    here_ = false;
+    if (in.fill_valid && fault_ == PipelineFault::kFlipFill && due()) {
+      in_.fill[0] ^= 1;
+    }
+    if (in.fill_valid && fault_ == PipelineFault::kLoseFill && due()) {
+      in_.fill_valid = false;
+    }
+    pipeline_->settle(in_, out);
+    const std::uint32_t event = event_of_fault();
+    here_ = event != 0 && (out.events & event) != 0 && due();
+    switch (fault_) {
+      case PipelineFault::kFlipTested:
+        here_ = out.beat_valid && in.beat_ready && due();
+        break;
+      case PipelineFault::kFlipWrite:
+        here_ = out.write_valid && due();
+        break;
+      case PipelineFault::kDropTriangle:
+        if (in.triangle_valid && out.triangle_ready && due()) {
+          in_.triangle_valid = false;  // the driver thinks that it was taken
+          PipelineOutputs same;
+          pipeline_->settle(in_, same);
+        }
+        break;
+      case PipelineFault::kDropTested:
+        out.beat_valid = out.beat_valid && !(in.beat_ready && due());
+        break;
+      case PipelineFault::kLateTested:
+        if (out.beat_valid && in.beat_ready && due()) {
+          in_.beat_ready = false;
+          pipeline_->settle(in_, out);
+          out.beat_valid = false;
+        }
+        break;
+      case PipelineFault::kActivity:
+        out.activity ^= due() ? 1u : 0u;
+        break;
+      case PipelineFault::kCounter:
+        out.counter += in.counter_select == 1 ? 1 : 0;
+        break;
+      default:
+        break;
+    }
+  }
+  void clock_edge() override { pipeline_->clock_edge(); }
+  [[nodiscard]] bool clear_done() const override { return pipeline_->clear_done(); }
+  [[nodiscard]] bool flush_done() const override { return pipeline_->flush_done(); }
+
+  [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {
+    return payload(pipeline_->setup_triangle(), PipelineFault::kFlipTriangle);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> depth_equation() const override {
+    return payload(pipeline_->depth_equation(), PipelineFault::kFlipEquation);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
+    return payload(pipeline_->draw_state(), PipelineFault::kFlipState);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
+    return payload(pipeline_->tile_job(), PipelineFault::kFlipJob);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> coverage() const override {
+    return payload(pipeline_->coverage(), PipelineFault::kFlipCoverage);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> quad_beat() const override {
+    return payload(pipeline_->quad_beat(), PipelineFault::kFlipBeat);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> tested_beat() const override {
+    return payload(pipeline_->tested_beat(), PipelineFault::kFlipTested);
+  }
+  void write_data(std::vector<std::uint32_t>& words) const override {
+    pipeline_->write_data(words);
+    words[0] ^= here_ && fault_ == PipelineFault::kFlipWrite ? 1u : 0u;
+  }
+  [[nodiscard]] bool assertion_failed() const override { return pipeline_->assertion_failed(); }
+  void trace_to(const std::filesystem::path& file) override { pipeline_->trace_to(file); }
+
+ private:
+  /// Called once for each that passes.
+  bool due() { return left_-- == 0; }
+
+  [[nodiscard]] std::uint32_t event_of_fault() const {
+    switch (fault_) {
+      case PipelineFault::kFlipTriangle:
+      case PipelineFault::kFlipEquation:
+      case PipelineFault::kFlipState:
+        return event::kAccept;
+      case PipelineFault::kFlipJob:
+        return event::kJob;
+      case PipelineFault::kFlipCoverage:
+        return event::kCoverage;
+      case PipelineFault::kFlipBeat:
+        return event::kBeat;
+      default:
+        return 0;
+    }
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> payload(std::span<const std::uint32_t> words, PipelineFault fault) const {
+    if (!here_ || fault_ != fault) {
+      return words;
+    }
+    flipped_.assign(words.begin(), words.end());
+    flipped_[0] ^= 1;
+    return flipped_;
+  }
+
+  std::unique_ptr<VerilatedPipeline> pipeline_;
+  PipelineFault fault_;
+  std::uint64_t left_;
+  bool here_ = false;  ///< in this cycle
+  PipelineInputs in_;
+  mutable std::vector<std::uint32_t> flipped_;
+};
+
+}  // namespace
+
+std::optional<PipelineFault> pipeline_fault(const std::string& name) {
+  const auto* const known = std::ranges::find_if(kNames, [&](const auto& each) { return name == each.first; });
+  return known == kNames.end() ? std::nullopt : std::optional(known->second);
+}
+
+std::vector<std::string> pipeline_fault_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, fault] : kNames) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+std::unique_ptr<VerilatedPipeline> with_fault(std::unique_ptr<VerilatedPipeline> pipeline, PipelineFault fault,
+                                              std::uint64_t at) {
+  return std::make_unique<FaultyPipeline>(std::move(pipeline), fault, at);
+}
+
+}  // namespace halfspace::tb

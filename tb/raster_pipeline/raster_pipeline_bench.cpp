@@ -1,0 +1,238 @@
+// The verilated pipeline against its two models: every packet on every link and every pixel against the C++ units,
+// and the cycle of every packet, every stage's every cycle and every credit against the recurrence.
+//
+// Exit status 0 when nothing differs; 1 with the first difference, 2 for bad options.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/load.hpp"
+#include "halfspace/timing/rtl/pipeline_library.hpp"
+#include "halfspace/timing/rtl/run_rtl.hpp"
+#include "raster_pipeline/fault.hpp"
+#include "timing/differences.hpp"
+#include "timing/random_machine.hpp"
+
+using namespace halfspace;
+using namespace halfspace::testing;
+
+namespace {
+
+struct BenchOptions {
+  std::string config;
+  std::string folder;
+  std::vector<std::string> frames;
+  std::uint64_t triangles = 20000;
+  std::uint64_t seed = 1;
+  std::string fault = "none";
+  std::uint64_t fault_at = 100;
+  std::string wave;
+  double bins = 0;
+};
+
+struct Totals {
+  std::uint64_t frames = 0;
+  std::uint64_t triangles = 0;
+  std::uint64_t cycles = 0;
+  std::uint64_t compared = 0;
+  double seconds = 0;                                  ///< in the verilated pipeline and its driver
+  std::set<std::pair<std::size_t, std::size_t>> seen;  ///< stage and reason to wait
+};
+
+/// A difference, in words.
+class Difference : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Bench {
+ public:
+  explicit Bench(const BenchOptions& options)
+      : options_(options), fault_(*tb::pipeline_fault(options.fault)), config_(read_config(options.config)) {
+    validate(config_);
+  }
+
+  void run() {
+    if (options_.frames.empty()) {
+      random_frames();
+    }
+    for (const std::string& file : options_.frames) {
+      const Frame frame = load(file);
+      compare(frame, config_, {}, options_.seed, frame.name);
+      Random random(options_.seed);
+      compare(frame, config_, stalls(random), options_.seed + 1, frame.name + " with stalls");
+    }
+    print();
+  }
+
+ private:
+  /// Frames of all kinds, each on a pipeline of its own, with registers of its own before reset.
+  void random_frames() {
+    for (std::uint64_t n = 0; totals_.triangles < options_.triangles; ++n) {
+      Random random(options_.seed + n);
+      const Frame frame = crowded(random_frame(random), random);
+      Config config = config_;
+      config.memory_latency = pick(random, {1, 2, 20, 100, 400, config.memory_latency});
+      config.fast_clear = random.between(0, 3) != 0;
+      compare(frame, config, stalls(random), options_.seed + n,
+              fmt::format("random frame {}, seed {}", n, options_.seed + n));
+    }
+  }
+
+  /// More triangles in every draw that has some, most of them small.
+  static Frame crowded(const Frame& frame, Random& random) {
+    Frame more = frame;
+    for (Command& command : more.commands) {
+      if (command.kind != CommandKind::kDraw || command.index_count == 0) {
+        continue;
+      }
+      const auto size = static_cast<int>(frame.targets[command.target].width);
+      const auto count = static_cast<std::uint32_t>(random.between(0, 200));
+      const std::uint32_t first = command.vertex_count;
+      std::vector<glm::vec4> vertices(more.vertices.begin() + command.first_vertex,
+                                      more.vertices.begin() + command.first_vertex + first);
+      std::vector<std::uint32_t> indices(more.indices.begin() + command.first_index,
+                                         more.indices.begin() + command.first_index + command.index_count);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::dvec2 centre{random.between(0, size * 256), random.between(0, size * 256)};
+        for (int corner = 0; corner < 3; ++corner) {
+          const int reach = 256 << random.between(0, 4);
+          const double x = (centre.x + static_cast<double>(random.between(-reach, reach))) / 256;
+          const double y = (centre.y + static_cast<double>(random.between(-reach, reach))) / 256;
+          indices.push_back(static_cast<std::uint32_t>(vertices.size()));
+          vertices.emplace_back(x * 2 / size - 1, y * 2 / size - 1,
+                                static_cast<double>(random.between(0, 1 << 20)) / (1 << 20), 1);
+        }
+      }
+      command.first_vertex = static_cast<std::uint32_t>(more.vertices.size());
+      command.first_index = static_cast<std::uint32_t>(more.indices.size());
+      command.vertex_count = static_cast<std::uint32_t>(vertices.size());
+      command.index_count = static_cast<std::uint32_t>(indices.size());
+      more.vertices.insert(more.vertices.end(), vertices.begin(), vertices.end());
+      more.indices.insert(more.indices.end(), indices.begin(), indices.end());
+    }
+    return more;
+  }
+
+  /// None, or idle cycles of the source and back-pressure at the sink.
+  static StallPlan stalls(Random& random) {
+    StallPlan plan = random_stalls(random);
+    for (std::size_t i = 0; i < kStallPoints; ++i) {
+      const auto point = static_cast<StallPoint>(i);
+      if (point != StallPoint::kSource && point != StallPoint::kSink) {
+        plan.rate[i] = {};
+      }
+    }
+    return plan;
+  }
+
+  void compare(const Frame& frame, const Config& config, const StallPlan& stalls, std::uint64_t seed,
+               const std::string& name) {
+    std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(config, options_.folder, seed);
+    if (!options_.wave.empty()) {
+      pipeline->trace_to(options_.wave);
+    }
+    if (fault_ != tb::PipelineFault::kNone) {
+      pipeline = tb::with_fault(std::move(pipeline), fault_, options_.fault_at);
+    }
+    PacketTimes times;
+    TimedRun run{.stalls = stalls, .cycles = {}, .times = &times};
+    Events events;
+    rtl::PacketReport report;
+    const auto start = std::chrono::steady_clock::now();
+    const FrameResult result = run_rtl(frame, config, true, &events, run, *pipeline, report);
+    totals_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (report.different != 0) {
+      throw Difference(fmt::format("{}: {} differences, first: {}", name, report.different, report.first));
+    }
+    PacketTimes model_times;
+    TimedRun model{.stalls = stalls, .cycles = {}, .times = &model_times};
+    Events model_events;
+    const FrameResult model_result = run_recurrence(frame, config, true, &model_events, model);
+    const std::string text = difference(times, model_times) + difference(run.cycles, model.cycles) +
+                             difference(result, model_result) + difference(events, model_events) +
+                             difference("cycle of quad", events.cycles, model_events.cycles);
+    if (!text.empty()) {
+      throw Difference(fmt::format("{}: RTL against recurrence: {}", name, text));
+    }
+    ++totals_.frames;
+    totals_.triangles += times.decide.size();
+    totals_.cycles += run.cycles.cycles;
+    totals_.compared += report.compared;
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+      for (std::size_t reason = 0; reason < kMostStallReasons; ++reason) {
+        if (run.cycles.stats.stage[stage].stall[reason] != 0) {
+          totals_.seen.insert({stage, reason});
+        }
+      }
+    }
+  }
+
+  void print() const {
+    fmt::print("{}: {} frames, {} triangles, {} cycles ({:.2f} Mcycles/s), {} packets, pixels and counters compared, "
+               "cycle of every packet compared: 0 differences\n",
+               config_name(), totals_.frames, totals_.triangles, totals_.cycles,
+               static_cast<double>(totals_.cycles) / totals_.seconds / 1e6, totals_.compared);
+    std::size_t reasons = 0;
+    std::string missed;
+    for (std::size_t stage = 0; stage < kStages; ++stage) {
+      for (std::size_t i = 0; i < kMostStallReasons && !kStageInfo[stage].stall[i].empty(); ++i) {
+        ++reasons;
+        if (!totals_.seen.contains({stage, i})) {
+          missed += fmt::format(" {}.{}", kStageInfo[stage].name, kStageInfo[stage].stall[i]);
+        }
+      }
+    }
+    const double share = 100.0 * static_cast<double>(totals_.seen.size()) / static_cast<double>(reasons);
+    fmt::print("functional coverage: {} of {} reasons to wait{}{}\n", totals_.seen.size(), reasons,
+               missed.empty() ? "" : "; never:", missed);
+    if (share < options_.bins) {
+      throw Difference(fmt::format("functional coverage is below {} %", options_.bins));
+    }
+  }
+
+  [[nodiscard]] std::string config_name() const { return std::filesystem::path(options_.config).stem().string(); }
+
+  const BenchOptions& options_;
+  tb::PipelineFault fault_;
+  Config config_;
+  Totals totals_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"the verilated raster_pipeline against the C++ units and the recurrence"};
+  BenchOptions options;
+  app.add_option("--config", options.config, "machine, TOML")->required();
+  app.add_option("--rtl-folder", options.folder, "where its verilated pipeline is")->required();
+  app.add_option("--frame", options.frames, "frames to run, each without and with stalls (default: random ones)");
+  app.add_option("--triangles", options.triangles, "of the random frames")->capture_default_str();
+  app.add_option("--seed", options.seed, "of frames, stalls and registers before reset")->capture_default_str();
+  app.add_option("--bins", options.bins, "percent of the reasons to wait that must have been seen")
+      ->capture_default_str();
+  app.add_option("--fault", options.fault, "put a fault between the pipeline and the checkers")
+      ->check(CLI::IsMember(tb::pipeline_fault_names()))
+      ->capture_default_str();
+  app.add_option("--fault-at", options.fault_at, "packet or cycle of it")->capture_default_str();
+  app.add_option("--wave", options.wave, "FST waveform of the last frame")->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+    Bench(options).run();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::fflush(stdout);
+    fmt::print(stderr, "raster_pipeline_bench: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
