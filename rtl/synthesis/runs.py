@@ -20,6 +20,7 @@ PACKAGES = "apt-get install --no-install-recommends qflow-tech-osu018 opensta"
 HARMLESS = re.compile(
     r"ABC: Warning: (The network is combinational|Detected \d+ multi-output|Templates are not defined)"
     r"|\b0 warnings"
+    r"|Lexer warning: .*share/abc9_map\.v"
 )
 # Gates for speed; buffers where the load is high, then sizes. Without them a net of many loads is the longest path.
 ABC_SCRIPT = (
@@ -100,13 +101,17 @@ def _read(run: Run, result: dict) -> None:
     wanted = run.configuration
     run.memories = result["memories"]
     run.multipliers = result["multipliers"]
-    run.cells = result["statistics"].get("num_cells_by_type", {})
+    run.cells = dict(result["statistics"].get("num_cells_by_type", {}))
+    run.cells.pop("$scopeinfo", None)
     run.area = float(result["statistics"].get("area", 0.0))
     if len(run.multipliers) != wanted.multipliers:
         run.failures.append(
             f"{len(run.multipliers)} multipliers, the design states {wanted.multipliers}: "
             + ", ".join(run.multipliers)
         )
+    unmapped = [kind for kind in run.cells if kind.startswith("$")]
+    if unmapped:
+        run.failures.append("not mapped: " + ", ".join(unmapped))
     latches = [kind for kind in run.cells if "LATCH" in kind.upper()]
     if latches:
         run.failures.append("latches: " + ", ".join(latches))

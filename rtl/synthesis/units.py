@@ -100,14 +100,16 @@ def _quad_generator() -> Unit:
     )
 
 
+SETUP_MULTIPLIERS = 6  # two for 2A in setup_cull, four for E in setup_edges
+
+
 def _setup() -> Unit:
-    # setup_cull has two for 2A, setup_edges four for E.
     def of(sub_pixel, interval, measured=True, **parameters):
         return Configuration(
             "setup",
             {"SUB_PIXEL_BITS": sub_pixel},
             {"Interval": interval, **parameters},
-            multipliers=6,
+            multipliers=SETUP_MULTIPLIERS,
             measured=measured,
         )
 
@@ -115,9 +117,10 @@ def _setup() -> Unit:
         "setup",
         ("setup",),
         (
-            *(of(8, interval) for interval in (1, 2, 4, 8, 16)),
+            *(of(8, interval) for interval in (1, 4, 16)),
             of(4, 1),
-            of(5, 4, False, BlockLevel="1'b0", FifoDepth=2),
+            of(5, 2, False, BlockLevel="1'b0", FifoDepth=2),
+            of(6, 8, False, BlockSize=64),
         ),
     )
 
@@ -186,6 +189,21 @@ def _memories() -> Unit:
     )
 
 
+
+def _raster_pipeline() -> Unit:
+    """All units and their counters: only elaborated. Its parts are measured."""
+
+    def of(test_width, **more):
+        multipliers = SETUP_MULTIPLIERS + early_z_multipliers(test_width)
+        return Configuration("raster_pipeline", {"TEST_WIDTH": test_width}, {}, multipliers, **more)
+
+    return Unit(
+        "raster_pipeline",
+        ("raster_pipeline",),
+        (of(1, measured=False), of(4, measured=False, long=True)),
+    )
+
+
 UNITS = {
     unit.name: unit
     for unit in (
@@ -196,5 +214,6 @@ UNITS = {
         _early_z(),
         _early_z_parts(),
         _memories(),
+        _raster_pipeline(),
     )
 }
