@@ -774,3 +774,40 @@ TEST_CASE("c_api: no pattern of bits on any link does harm") {
   }
   CHECK(taken > 0);
 }
+
+TEST_CASE("c_api: nor does a packet with some bits flipped, where all units work") {
+  Random random(4);
+  const Machine& machine = kMachines[0];
+  const DepthFormat format = GENERATE(DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32);
+  Reference<8> reference(machine, format, kWidth, kHeight, one(format));
+  TriangleSource source(7, kWidth, machine.widths.SubPixelBits);
+  for (int i = 0; i < 10; ++i) {
+    reference.triangle(source.next(largest_vertex_depth(format)), draw_state(machine, format));
+  }
+  const Model model = make_model(machine, {HALFSPACE_TESTED_BEAT});
+  define_surface(model, format);
+  for (const Words& slot : reference.packets.at(HALFSPACE_SLOT)) {
+    REQUIRE(put(model, HALFSPACE_SLOT, slot) == HALFSPACE_OK);
+  }
+  int refused = 0;
+  int taken = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const int link = static_cast<int>(random.between(HALFSPACE_TRIANGLE, HALFSPACE_QUAD_BEAT));
+    const std::vector<Words>& packets = reference.packets.at(link);
+    Words words = packets[static_cast<std::size_t>(random.between(0, static_cast<int>(packets.size()) - 1))];
+    for (std::int64_t flips = random.between(1, 3); flips > 0; --flips) {
+      const auto bit = static_cast<std::size_t>(random.between(0, 32 * static_cast<int>(words.size()) - 1));
+      words[bit / 32] ^= 1u << bit % 32;
+    }
+    const int status = put(model, link, words);
+    if (status != (error(model).empty() ? HALFSPACE_OK : HALFSPACE_REFUSED)) {
+      FAIL(status << " " << error(model));
+    }
+    ++(status == HALFSPACE_OK ? taken : refused);
+    if (i % 100 == 0) {
+      static_cast<void>(take(model, HALFSPACE_TESTED_BEAT));
+    }
+  }
+  CHECK(refused > 100);
+  CHECK(taken > 100);
+}
