@@ -25,6 +25,10 @@ test: release debug $(PYTHON_TOOLS) ## Install what is missing, build, and run e
 test-slow: release $(PYTHON_TOOLS) ## Run the long campaigns too.
 	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
 
+.PHONY: rtl
+rtl: build/release/build.ninja ## Verilate the pipeline of every named configuration, for --fidelity rtl.
+	cmake --build --preset release --target halfspace_cli raster_pipeline_fast
+
 .PHONY: bench
 bench: release-program ## Measure the functional model on the shipped frames.
 	$(HALFSPACE) bench speed scenes/*.ptf.xz
