@@ -17,7 +17,8 @@ void add_config_command(CLI::App& app, int& /*status*/) {
   CLI::App* command = app.add_subcommand("config", "show every configuration key with its help");
   machine->add_to(*command);
   CLI::Option* const as_toml = command->add_flag("--toml", *toml, "print a configuration file");
-  command->add_flag("--rtl", *rtl, "print Verilator's arguments for rtl/raster_pipeline.sv")->excludes(as_toml);
+  command->add_flag("--rtl", *rtl, "print Verilator's arguments for rtl/raster_pipeline.sv")
+      ->excludes(as_toml);
   command->callback([machine, toml, rtl] {
     const Config config = machine->config();
     if (*rtl) {

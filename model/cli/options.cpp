@@ -112,7 +112,10 @@ Config MachineOptions::config() const {
 }
 
 void InputOptions::add_to(CLI::App& command) {
-  command.add_option("INPUT", path, "frame (.ptf, .ptf.gz, .ptf.xz) or mesh (.obj, .ply, .gltf, .glb)")
+  command
+      .add_option("INPUT", path,
+                  "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
+                  "'halfspace info --help' lists the names")
       ->required();
   command.add_option("--eye", eye, "mesh: camera position (default: the whole mesh is seen)")
       ->type_name("X,Y,Z");
@@ -171,15 +174,18 @@ void RtlOptions::add_to(CLI::App& command) {
   command.add_option("--rtl-seed", seed, "of what the RTL's registers hold before reset (default: 0)")
       ->type_name("N");
   command
-      .add_option("--wave", wave, "write an FST waveform; for pipelines with checks: --rtl-folder .../checked")
+      .add_option("--wave", wave,
+                  "write an FST waveform; for pipelines with checks: --rtl-folder .../checked")
       ->type_name("FILE");
 }
 
 std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& config) const {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(
-      config, folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace" : std::filesystem::path(folder),
-      parse_seed("--rtl-seed", seed));
+  std::unique_ptr<rtl::VerilatedPipeline> pipeline =
+      rtl::load_pipeline(config,
+                         folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace"
+                                        : std::filesystem::path(folder),
+                         parse_seed("--rtl-seed", seed));
   if (!wave.empty()) {
     pipeline->trace_to(wave);
   }

@@ -123,7 +123,8 @@ std::string camel_case(std::string_view name) {
 /// What a stage spends a cycle on, in the order of StageInfo: its counters have the same numbers.
 std::string activity_enum(const StageInfo& stage) {
   const std::string prefix = camel_case(stage.name);
-  std::string text = "\n  // a cycle of " + std::string(stage.name) + "\n  typedef enum logic [ActivityBits-1:0] {\n";
+  std::string text =
+      "\n  // a cycle of " + std::string(stage.name) + "\n  typedef enum logic [ActivityBits-1:0] {\n";
   text += "    " + prefix + "Busy = 0";
   for (std::size_t i = 0; i < stage.stall.size() && !stage.stall[i].empty(); ++i) {
     text += ",\n    " + prefix + camel_case(stage.stall[i]) + " = " + std::to_string(i + 1);
@@ -183,7 +184,9 @@ std::string raster_pkg() {
   text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
   text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");
   text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
-  text += "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait\n";
+  text +=
+      "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to "
+      "wait\n";
   text += "  parameter int unsigned StageCount = " + std::to_string(kStages) + ";\n";
   text += "  parameter int unsigned ActivityCount = " + std::to_string(kMostStallReasons + 1) + ";\n";
   text += "  parameter int unsigned ActivityBits = $clog2(ActivityCount);\n";

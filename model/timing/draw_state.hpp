@@ -22,8 +22,8 @@ ZCacheShape z_cache_shape(const Config& config);
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
 
-/// All that travels with the triangles of a draw. `place` and `clear_code` are those of its depth surface, if it
-/// has one.
+/// All that travels with the triangles of a draw. `place` and `clear_code` are those of its depth surface, if
+/// it has one.
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
                                   std::uint32_t clear_code);
 

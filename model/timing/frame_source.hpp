@@ -44,8 +44,8 @@ struct SourceItem {
   std::uint32_t code = 0;              ///< to this code
 };
 
-/// Executes the commands of a frame. All references must outlive it; `result` has its surfaces, `observer` may
-/// be null. Draws are added to `draws` as they begin.
+/// Executes the commands of a frame. All references must outlive it; `result` has its surfaces, `observer`
+/// may be null. Draws are added to `draws` as they begin.
 class FrameSource {
  public:
   FrameSource(const Frame& frame, const Config& config, PacketObserver* observer, FrameResult& result,

@@ -133,7 +133,8 @@ class FaultyPipeline final : public VerilatedPipeline {
     }
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> payload(std::span<const std::uint32_t> words, PipelineFault fault) const {
+  [[nodiscard]] std::span<const std::uint32_t> payload(std::span<const std::uint32_t> words,
+                                                       PipelineFault fault) const {
     if (!here_ || fault_ != fault) {
       return words;
     }
@@ -153,7 +154,8 @@ class FaultyPipeline final : public VerilatedPipeline {
 }  // namespace
 
 std::optional<PipelineFault> pipeline_fault(const std::string& name) {
-  const auto* const known = std::ranges::find_if(kNames, [&](const auto& each) { return name == each.first; });
+  const auto* const known =
+      std::ranges::find_if(kNames, [&](const auto& each) { return name == each.first; });
   return known == kNames.end() ? std::nullopt : std::optional(known->second);
 }
 
@@ -165,8 +167,8 @@ std::vector<std::string> pipeline_fault_names() {
   return names;
 }
 
-std::unique_ptr<VerilatedPipeline> with_fault(std::unique_ptr<VerilatedPipeline> pipeline, PipelineFault fault,
-                                              std::uint64_t at) {
+std::unique_ptr<VerilatedPipeline> with_fault(std::unique_ptr<VerilatedPipeline> pipeline,
+                                              PipelineFault fault, std::uint64_t at) {
   return std::make_unique<FaultyPipeline>(std::move(pipeline), fault, at);
 }
 

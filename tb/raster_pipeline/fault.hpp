@@ -35,7 +35,7 @@ enum class PipelineFault : std::uint8_t {
 [[nodiscard]] std::vector<std::string> pipeline_fault_names();
 
 /// `pipeline` with the fault at the packet `at` of its link, or in the cycle `at`.
-[[nodiscard]] std::unique_ptr<rtl::VerilatedPipeline> with_fault(std::unique_ptr<rtl::VerilatedPipeline> pipeline,
-                                                                 PipelineFault fault, std::uint64_t at);
+[[nodiscard]] std::unique_ptr<rtl::VerilatedPipeline> with_fault(
+    std::unique_ptr<rtl::VerilatedPipeline> pipeline, PipelineFault fault, std::uint64_t at);
 
 }  // namespace halfspace::tb

@@ -1,5 +1,5 @@
-// The verilated pipeline against its two models: every packet on every link and every pixel against the C++ units,
-// and the cycle of every packet, every stage's every cycle and every credit against the recurrence.
+// The verilated pipeline against its two models: every packet on every link and every pixel against the C++
+// units, and the cycle of every packet, every stage's every cycle and every credit against the recurrence.
 //
 // Exit status 0 when nothing differs; 1 with the first difference, 2 for bad options.
 #include <fmt/format.h>
@@ -177,10 +177,12 @@ class Bench {
   }
 
   void print() const {
-    fmt::print("{}: {} frames, {} triangles, {} cycles ({:.2f} Mcycles/s), {} packets, pixels and counters compared, "
-               "cycle of every packet compared: 0 differences\n",
-               config_name(), totals_.frames, totals_.triangles, totals_.cycles,
-               static_cast<double>(totals_.cycles) / totals_.seconds / 1e6, totals_.compared);
+    fmt::print(
+        "{}: {} frames, {} triangles, {} cycles ({:.2f} Mcycles/s), {} packets, pixels and counters "
+        "compared, "
+        "cycle of every packet compared: 0 differences\n",
+        config_name(), totals_.frames, totals_.triangles, totals_.cycles,
+        static_cast<double>(totals_.cycles) / totals_.seconds / 1e6, totals_.compared);
     std::size_t reasons = 0;
     std::string missed;
     for (std::size_t stage = 0; stage < kStages; ++stage) {
@@ -199,7 +201,9 @@ class Bench {
     }
   }
 
-  [[nodiscard]] std::string config_name() const { return std::filesystem::path(options_.config).stem().string(); }
+  [[nodiscard]] std::string config_name() const {
+    return std::filesystem::path(options_.config).stem().string();
+  }
 
   const BenchOptions& options_;
   tb::PipelineFault fault_;
@@ -214,9 +218,11 @@ int main(int argc, char** argv) {
   BenchOptions options;
   app.add_option("--config", options.config, "machine, TOML")->required();
   app.add_option("--rtl-folder", options.folder, "where its verilated pipeline is")->required();
-  app.add_option("--frame", options.frames, "frames to run, each without and with stalls (default: random ones)");
+  app.add_option("--frame", options.frames,
+                 "frames to run, each without and with stalls (default: random ones)");
   app.add_option("--triangles", options.triangles, "of the random frames")->capture_default_str();
-  app.add_option("--seed", options.seed, "of frames, stalls and registers before reset")->capture_default_str();
+  app.add_option("--seed", options.seed, "of frames, stalls and registers before reset")
+      ->capture_default_str();
   app.add_option("--bins", options.bins, "percent of the reasons to wait that must have been seen")
       ->capture_default_str();
   app.add_option("--fault", options.fault, "put a fault between the pipeline and the checkers")

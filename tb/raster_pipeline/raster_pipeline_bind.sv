@@ -11,7 +11,8 @@ bind raster_pipeline handshake_checker #(
 );
 
 bind raster_pipeline handshake_checker #(
-  .Width ($bits(raster_pkg::setup_triangle_t) + $bits(raster_pkg::depth_equation_t) + $bits(raster_pkg::draw_state_t))
+  .Width ($bits(raster_pkg::setup_triangle_t) + $bits(raster_pkg::depth_equation_t)
+          + $bits(raster_pkg::draw_state_t))
 ) u_triangle_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),

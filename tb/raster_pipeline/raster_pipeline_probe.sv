@@ -25,8 +25,8 @@ module raster_pipeline_probe
   // In the order of halfspace::rtl::event (model/timing/rtl/verilated_pipeline.hpp).
   logic [12:0] events  /*verilator public_flat_rd*/;
   assign events = {
-    writes_i, test_last_i, test_first_i, last_beat_i & beat_i, first_beat_i & beat_i, beat_i, coverage_i, job_i,
-    emit_i, accept_i, decide_i
+    writes_i, test_last_i, test_first_i, last_beat_i & beat_i, first_beat_i & beat_i, beat_i,
+    coverage_i, job_i, emit_i, accept_i, decide_i
   };
 
   logic [$bits(setup_triangle_t)-1:0] triangle  /*verilator public_flat_rd*/;

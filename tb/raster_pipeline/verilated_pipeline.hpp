@@ -107,7 +107,8 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
       model_->trace(trace_.get(), 99);
       trace_->open(file.c_str());
     } else {
-      throw InputError(file.string() + ": this pipeline was verilated without waveforms; one with checks has them");
+      throw InputError(file.string() +
+                       ": this pipeline was verilated without waveforms; one with checks has them");
     }
   }
 

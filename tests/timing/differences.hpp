@@ -29,9 +29,7 @@ std::string difference(const std::string& what, const std::vector<Value>& ours,
 }
 
 inline std::string difference(const std::string& what, std::uint64_t ours, std::uint64_t other) {
-  return ours == other
-             ? ""
-             : what + ": " + std::to_string(ours) + " against " + std::to_string(other) + "\n";
+  return ours == other ? "" : what + ": " + std::to_string(ours) + " against " + std::to_string(other) + "\n";
 }
 
 /// The first packet that moves in another cycle, stage by stage.
@@ -103,7 +101,7 @@ std::string difference(const std::string& what, const TiledImage<Value>& ours,
   };
   return ours.empty() != other.empty() ? what + " is missing\n"
          : ours.empty()                ? ""
-                                          : difference(what, rows(ours), rows(other));
+                                       : difference(what, rows(ours), rows(other));
 }
 
 inline std::string difference(const FrameResult& ours, const FrameResult& other) {

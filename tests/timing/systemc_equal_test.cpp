@@ -6,11 +6,11 @@
 #include <iostream>
 #include <sstream>
 
+#include "differences.hpp"
 #include "halfspace/scene/ptf.hpp"
 #include "halfspace/scene/validate.hpp"
 #include "halfspace/timing/functional.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
-#include "differences.hpp"
 #include "random_machine.hpp"
 
 using namespace halfspace;

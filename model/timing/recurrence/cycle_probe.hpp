@@ -84,8 +84,8 @@ class CycleProbe {
     note(&PacketTimes::f, f);
   }
 
-  /// A missing part that could be resolved from `ready` on was out of the cache from `out` on, and resolved in
-  /// `r`, when a fill buffer was free; of these cycles those count in which no beat moves any more, from
+  /// A missing part that could be resolved from `ready` on was out of the cache from `out` on, and resolved
+  /// in `r`, when a fill buffer was free; of these cycles those count in which no beat moves any more, from
   /// `moved` on.
   void request(Cycle moved, Cycle ready, Cycle out, Cycle r) {
     const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };

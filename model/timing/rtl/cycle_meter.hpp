@@ -1,5 +1,5 @@
-/// Where the cycles of the verilated pipeline went, draw by draw: from what its stages do in each cycle and from when
-/// their packets come and go.
+/// Where the cycles of the verilated pipeline went, draw by draw: from what its stages do in each cycle and
+/// from when their packets come and go.
 #pragma once
 
 #include <array>

@@ -7,7 +7,8 @@
 namespace halfspace::rtl {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "words of ports are copied to and from bytes of memory");
+static_assert(std::endian::native == std::endian::little,
+              "words of ports are copied to and from bytes of memory");
 
 }  // namespace
 
@@ -29,7 +30,8 @@ LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surface
     const std::uint32_t first = places[i].first_tile * static_cast<std::uint32_t>(parts_);
     const std::uint32_t count = places[i].tiles * static_cast<std::uint32_t>(parts_);
     const std::size_t sample = places[i].line_bytes / samples_;
-    const std::uint32_t code = clear_code(surfaces[i].format, 1);  // without a clear a surface starts at depth 1
+    const std::uint32_t code =
+        clear_code(surfaces[i].format, 1);  // without a clear a surface starts at depth 1
     for (std::uint32_t line = first; line < first + count; ++line) {
       for (std::uint32_t s = 0; s < samples_; ++s) {
         std::memcpy(&bytes(line)[s * sample], &code, sample);
@@ -50,7 +52,8 @@ bool LineMemory::fill(std::uint64_t cycle, std::span<std::uint32_t> words) {
     return false;
   }
   Fill& fill = fills_.front();
-  const std::uint32_t count = std::min(read_bytes_, static_cast<std::uint32_t>(fill.bytes.size()) - fill.next);
+  const std::uint32_t count =
+      std::min(read_bytes_, static_cast<std::uint32_t>(fill.bytes.size()) - fill.next);
   std::ranges::fill(words, 0);
   std::memcpy(words.data(), &fill.bytes[fill.next], count);
   fill.next += count;
@@ -84,7 +87,8 @@ void LineMemory::read_surface(const ZSurface& place, std::uint32_t clear_code, S
   for (std::uint32_t tile = 0; tile < place.tiles; ++tile) {
     std::uint32_t* codes =
         surface.codes.tile(static_cast<int>(tile % place.tiles_x), static_cast<int>(tile / place.tiles_x));
-    for (std::uint32_t line = (place.first_tile + tile) * parts; line < (place.first_tile + tile + 1) * parts; ++line) {
+    for (std::uint32_t line = (place.first_tile + tile) * parts; line < (place.first_tile + tile + 1) * parts;
+         ++line) {
       for (std::uint32_t s = 0; s < samples_; ++s, ++codes) {
         *codes = cleared_[line] ? clear_code : 0;
         if (!cleared_[line]) {

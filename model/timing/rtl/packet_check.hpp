@@ -52,8 +52,8 @@ class PacketCheck {
         const std::uint64_t want = extract_bits(words_, field.lsb + bit, width);
         const std::uint64_t have = extract_bits(wires, field.lsb + bit, width);
         if (want != have) {
-          return fmt::format("{} packet {} in cycle {}, field {}: model {:#x}, RTL {:#x}", link_, packets_, cycle,
-                             field.name, want, have);
+          return fmt::format("{} packet {} in cycle {}, field {}: model {:#x}, RTL {:#x}", link_, packets_,
+                             cycle, field.name, want, have);
         }
       }
     }

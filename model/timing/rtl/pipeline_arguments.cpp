@@ -19,9 +19,13 @@ std::vector<std::string> pipeline_arguments(const Config& config) {
     throw InputError("configuration key 'depth.interpolator' is 'plane'; legal for the RTL: barycentric");
   }
   std::vector<std::string> arguments;
-  const auto number = [&](const char* name, int value) { arguments.push_back(fmt::format("{}={}", name, value)); };
+  const auto number = [&](const char* name, int value) {
+    arguments.push_back(fmt::format("{}={}", name, value));
+  };
   // A bit must be written as one: Verilator warns of a wider number.
-  const auto flag = [&](const char* name, bool on) { arguments.push_back(fmt::format("{}=1'b{}", name, on ? 1 : 0)); };
+  const auto flag = [&](const char* name, bool on) {
+    arguments.push_back(fmt::format("{}=1'b{}", name, on ? 1 : 0));
+  };
   number("-DHALFSPACE_SUB_PIXEL_BITS", config.sub_pixel_bits);
   number("-DHALFSPACE_TILE_SIZE", config.tile_size);
   number("-DHALFSPACE_QUAD_WIDTH", config.quad_width);

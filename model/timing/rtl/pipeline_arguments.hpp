@@ -16,8 +16,8 @@ inline constexpr std::uint32_t kMemoryTiles = 65536;
 
 [[nodiscard]] Widths widths(const Config& config);
 
-/// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: every key that the RTL knows. The same arguments mean the
-/// same RTL. Throws InputError where there is no RTL for the configuration.
+/// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: every key that the RTL knows. The same arguments
+/// mean the same RTL. Throws InputError where there is no RTL for the configuration.
 [[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& config);
 
 }  // namespace halfspace::rtl

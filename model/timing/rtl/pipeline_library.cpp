@@ -36,7 +36,8 @@ template <class Symbol>
 Symbol* symbol(void* library, const fs::path& file, const char* name) {
   void* const found = dlsym(library, name);
   if (found == nullptr) {
-    throw InputError(fmt::format("{}: has no '{}': not a verilated pipeline of this version", file.string(), name));
+    throw InputError(
+        fmt::format("{}: has no '{}': not a verilated pipeline of this version", file.string(), name));
   }
   return reinterpret_cast<Symbol*>(found);
 }
@@ -59,10 +60,10 @@ std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config, const fs:
     }
     names.push_back(file.stem().string().substr(std::string(kPrefix).size()));
   }
-  throw InputError(fmt::format(
-      "no verilated pipeline of this configuration in {} (there: {}); the build makes those of "
-      "HALFSPACE_RTL_CONFIGS",
-      folder.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+  throw InputError(
+      fmt::format("no verilated pipeline of this configuration in {} (there: {}); the build makes those of "
+                  "HALFSPACE_RTL_CONFIGS",
+                  folder.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 }  // namespace halfspace::rtl

@@ -1,4 +1,5 @@
-/// Verilated pipelines, one configuration a library, loaded when they are needed: who needs none needs no Verilator.
+/// Verilated pipelines, one configuration a library, loaded when they are needed: who needs none needs no
+/// Verilator.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace halfspace::rtl {
 
-/// The pipeline of `config` from one of the libraries halfspace_rtl_*.so in `folder`. `seed` decides what its registers
-/// hold before reset. Throws InputError that names the folder and what it has when none fits.
+/// The pipeline of `config` from one of the libraries halfspace_rtl_*.so in `folder`. `seed` decides what its
+/// registers hold before reset. Throws InputError that names the folder and what it has when none fits.
 [[nodiscard]] std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config,
                                                                const std::filesystem::path& folder,
                                                                std::uint64_t seed);

@@ -29,8 +29,8 @@ using namespace rtl;
 using Cycle = std::uint64_t;
 
 constexpr int kResetCycles = 2;
-/// A machine in which nothing moves for so long, and the longest wait for memory, will not move any more: the longest
-/// clear takes a cycle a tile.
+/// A machine in which nothing moves for so long, and the longest wait for memory, will not move any more: the
+/// longest clear takes a cycle a tile.
 constexpr Cycle kLongestRest = 2 * Cycle{kMemoryTiles};
 
 // What the model expects on each link. The tokens keep what the next unit needs beside the packet.
@@ -97,9 +97,9 @@ class RtlRun {
     const ZCacheShape shape = z_cache_shape(config);
     const std::uint32_t lines = memory_lines(places_, shape);
     if (lines / static_cast<std::uint32_t>(config.z_parts) > kMemoryTiles) {
-      throw InputError(fmt::format("{}: its depth surfaces have {} tiles of {}x{}; legal for the RTL: at most {}",
-                                   frame.name, lines / static_cast<std::uint32_t>(config.z_parts), TileSize, TileSize,
-                                   kMemoryTiles));
+      throw InputError(fmt::format(
+          "{}: its depth surfaces have {} tiles of {}x{}; legal for the RTL: at most {}", frame.name,
+          lines / static_cast<std::uint32_t>(config.z_parts), TileSize, TileSize, kMemoryTiles));
     }
     z_cache_ = ZCache(shape, lines);
     memory_.emplace(config, result_.surfaces, places_);
@@ -107,7 +107,8 @@ class RtlRun {
     source_.emplace(frame, config, observer, result_, draws_);
     in_.triangle.resize(words_for(packed_bits<ScreenTrianglePacket>(widths_)));
     in_.state.resize(words_for(packed_bits<DrawStatePacket>(widths_)));
-    in_.fill.resize(words_for(8 * std::min(config.memory_read_bytes, TileSize * TileSize * 4 / config.z_parts)));
+    in_.fill.resize(
+        words_for(8 * std::min(config.memory_read_bytes, TileSize * TileSize * 4 / config.z_parts)));
     if (run.times != nullptr) {
       *run.times = {};
     }
@@ -201,15 +202,17 @@ class RtlRun {
     ++cycle_;
     end_clear_or_flush();
     if (rest_ > longest_rest_) {
-      throw RtlError(fmt::format("deadlock in cycle {}: nothing has moved for {} cycles; {} packets differ{}{}", cycle_,
-                                 rest_, report_.different, report_.different == 0 ? "" : ", first: ", report_.first));
+      throw RtlError(
+          fmt::format("deadlock in cycle {}: nothing has moved for {} cycles; {} packets differ{}{}", cycle_,
+                      rest_, report_.different, report_.different == 0 ? "" : ", first: ", report_.first));
     }
   }
 
   void clock_edge() {
     pipeline_.clock_edge();
     if (pipeline_.assertion_failed()) {
-      throw RtlError(fmt::format("an assertion of the RTL failed in cycle {}: see its message above", cycle_));
+      throw RtlError(
+          fmt::format("an assertion of the RTL failed in cycle {}: see its message above", cycle_));
     }
   }
 
@@ -403,10 +406,12 @@ class RtlRun {
   void accept() {
     const ExpectedTriangle expected = std::move(triangles_out_.front());
     triangles_out_.pop_front();
-    meter_.begins(Stage::kTileWalker, expected.draw);  // the cycle itself is still that of the triangle before
+    meter_.begins(Stage::kTileWalker,
+                  expected.draw);  // the cycle itself is still that of the triangle before
     meter_.give_back(Link::kSetup, cycle_ + 1);
     note(&PacketTimes::accept);
-    triangle_check_.compare(cycle_, to_packet(*expected.triangle, walker_, TileSize), pipeline_.setup_triangle());
+    triangle_check_.compare(cycle_, to_packet(*expected.triangle, walker_, TileSize),
+                            pipeline_.setup_triangle());
     equation_check_.compare(cycle_, to_packet(*expected.triangle, expected.draw->setup.depth_format),
                             pipeline_.depth_equation());
     state_check_.compare(cycle_, expected.state, pipeline_.draw_state());
@@ -442,7 +447,8 @@ class RtlRun {
     }
     meter_.take(Link::kQuadGenerator, expected.draw, cycle_);
     const QuadBurst burst = quad_generator<TileSize>(expected.coverage);
-    tally<TileSize>(expected.draw->counters.quad_generator, burst, static_cast<std::uint64_t>(popcount(burst.quads)),
+    tally<TileSize>(expected.draw->counters.quad_generator, burst,
+                    static_cast<std::uint64_t>(popcount(burst.quads)),
                     static_cast<std::uint64_t>(popcount(burst.coverage.mask)));
     for (const QuadBeat& beat : quad_beats<TileSize>(burst, widths_)) {
       beats_.push_back(beat);
@@ -472,7 +478,8 @@ class RtlRun {
     const Coverage& coverage = burst.burst.coverage;
     Surface* const surface = draw.surface == kNoSurface ? nullptr : &result_.surfaces[draw.surface];
     TileCodes<TileSize> codes{};
-    std::uint32_t* const stored = surface == nullptr ? nullptr : surface->codes.tile(coverage.tile_x, coverage.tile_y);
+    std::uint32_t* const stored =
+        surface == nullptr ? nullptr : surface->codes.tile(coverage.tile_x, coverage.tile_y);
     const TileMask passed = early_z<TileSize>(*burst.triangle, burst.burst, draw.early_z, stored, codes);
     if (surface == nullptr) {
       codes = {};
@@ -507,7 +514,8 @@ class RtlRun {
     if (!stalls_sink_ || in_burst_) {
       return true;
     }
-    return !to_sink_.empty() && cycle_ >= to_sink_.front() + run_.stalls.cycles(StallPoint::kSink, bursts_taken_);
+    return !to_sink_.empty() &&
+           cycle_ >= to_sink_.front() + run_.stalls.cycles(StallPoint::kSink, bursts_taken_);
   }
 
   void take_tested_beat() {
@@ -543,7 +551,8 @@ class RtlRun {
   }
 
   /// Quad i of a beat, as the RTL gives it.
-  void add_quad(const TestedBeat& beat, std::size_t i, const DrawContext& draw, const SetupTriangle& triangle) {
+  void add_quad(const TestedBeat& beat, std::size_t i, const DrawContext& draw,
+                const SetupTriangle& triangle) {
     const int x = beat.index[i] % (TileSize / 2) * 2;
     const int y = beat.index[i] / (TileSize / 2) * 2;
     for (int sample = 0; sample < 4; ++sample) {
@@ -610,7 +619,8 @@ class RtlRun {
   void check_line(const char* what, std::uint32_t line, std::uint32_t want, bool half) {
     ++report_.compared;
     const std::uint32_t bytes = memory_->line_bytes(line);
-    if (line != want || half != (bytes < 4u * TileSize * TileSize / static_cast<std::uint32_t>(config_.z_parts))) {
+    if (line != want ||
+        half != (bytes < 4u * TileSize * TileSize / static_cast<std::uint32_t>(config_.z_parts))) {
       report_.differ(fmt::format("{} in cycle {}: model line {}, RTL line {} ({})", what, cycle_, want, line,
                                  half ? "2 bytes a sample" : "4 bytes a sample"));
     }
@@ -627,8 +637,9 @@ class RtlRun {
     requests_.pop_front();
     memory_->request(cycle_, out_.read_line);
     const std::uint32_t bytes = memory_->line_bytes(out_.read_line);
-    meter_.transfer(&CycleStats::read_busy, lookup_draw_,
-                    static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(bytes), config_.memory_read_bytes)));
+    meter_.transfer(
+        &CycleStats::read_busy, lookup_draw_,
+        static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(bytes), config_.memory_read_bytes)));
   }
 
   void write() {
@@ -670,8 +681,8 @@ class RtlRun {
       pipeline_.settle(in_, out_);
       ++report_.compared;
       if (out_.counter != want) {
-        report_.differ(fmt::format("counter {} of stage {}: {} cycles were seen, RTL {}", activity, stage, want,
-                                   out_.counter));
+        report_.differ(fmt::format("counter {} of stage {}: {} cycles were seen, RTL {}", activity, stage,
+                                   want, out_.counter));
       }
     };
     for (std::size_t stage = 0; stage < kStages; ++stage) {
@@ -710,8 +721,8 @@ class RtlRun {
         for (int x = 0; x < model.width(); ++x) {
           ++report_.compared;
           if (surface.codes.at(x, y) != model.at(x, y)) {
-            report_.differ(fmt::format("surface {} at ({}, {}): model {:#x}, RTL {:#x}", i, x, y, model.at(x, y),
-                                       surface.codes.at(x, y)));
+            report_.differ(fmt::format("surface {} at ({}, {}): model {:#x}, RTL {:#x}", i, x, y,
+                                       model.at(x, y), surface.codes.at(x, y)));
           }
         }
       }
@@ -736,8 +747,8 @@ class RtlRun {
   PacketCheck<TestedBeat> tested_check_;
   Cycle longest_rest_;
 
-  FrameResult result_;             ///< its codes are the model's, until the end
-  std::vector<ZSurface> places_;   ///< by surface
+  FrameResult result_;                     ///< its codes are the model's, until the end
+  std::vector<ZSurface> places_;           ///< by surface
   std::vector<std::uint32_t> clear_code_;  ///< of each surface's last clear by the z cache
   std::deque<DrawContext> draws_;
   ZCache z_cache_;
@@ -786,9 +797,9 @@ class RtlRun {
   TileMask passed_;
 
   // Memory.
-  std::deque<std::uint32_t> requests_;     ///< expected
-  std::deque<ExpectedWrite> writes_;       ///< expected
-  std::deque<DrawContext*> written_for_;   ///< lines in the write buffer
+  std::deque<std::uint32_t> requests_;    ///< expected
+  std::deque<ExpectedWrite> writes_;      ///< expected
+  std::deque<DrawContext*> written_for_;  ///< lines in the write buffer
   std::vector<std::uint32_t> write_words_;
   bool in_write_ = false;
 
@@ -805,7 +816,8 @@ FrameResult run_rtl(const Frame& frame, const Config& config, bool keep_visible,
   for (std::size_t i = 0; i < kStallPoints; ++i) {
     const auto point = static_cast<StallPoint>(i);
     const StallPlan::Rate& rate = run.stalls.rate[i];
-    if (rate.percent != 0 && rate.max_cycles != 0 && point != StallPoint::kSource && point != StallPoint::kSink) {
+    if (rate.percent != 0 && rate.max_cycles != 0 && point != StallPoint::kSource &&
+        point != StallPoint::kSink) {
       throw InputError(fmt::format("stalls at '{}': legal for the RTL: source, sink", kStallPointName[i]));
     }
   }

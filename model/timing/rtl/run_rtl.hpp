@@ -1,5 +1,6 @@
-/// Fidelity `rtl`: the verilated SystemVerilog, with the front end before it and a memory behind it. Every packet on
-/// every link is compared with that of the C++ units as it passes; image, quads, cycles and traffic are the RTL's own.
+/// Fidelity `rtl`: the verilated SystemVerilog, with the front end before it and a memory behind it. Every
+/// packet on every link is compared with that of the C++ units as it passes; image, quads, cycles and traffic
+/// are the RTL's own.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +19,11 @@ class RtlError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Runs `frame` on `pipeline`, which is that of `config`, both valid; call it once for a pipeline. Of the stall plan
-/// only source and sink can be injected: other points throw InputError, as do depth surfaces of more tiles than the
-/// pipeline has flags for. Counters of setup's verdicts and of the walker's decisions, which no wire carries, are those of the
-/// C++ units for the same packets. `report` says where the RTL differs from the model; `observer` may be null.
+/// Runs `frame` on `pipeline`, which is that of `config`, both valid; call it once for a pipeline. Of the
+/// stall plan only source and sink can be injected: other points throw InputError, as do depth surfaces of
+/// more tiles than the pipeline has flags for. Counters of setup's verdicts and of the walker's decisions,
+/// which no wire carries, are those of the C++ units for the same packets. `report` says where the RTL
+/// differs from the model; `observer` may be null.
 FrameResult run_rtl(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
                     TimedRun& run, rtl::VerilatedPipeline& pipeline, rtl::PacketReport& report);
 

@@ -60,8 +60,8 @@ class Source : public sc_core::sc_module {
   std::uint32_t done_ = 0;
   bool in_frame_ = false;
   std::optional<FrameSource> frame_;
-  std::uint64_t triangles_ = 0;       ///< given to setup
-  Cycle next_arrival_ = 0;            ///< the triangle before is taken, and the clear before is done
+  std::uint64_t triangles_ = 0;  ///< given to setup
+  Cycle next_arrival_ = 0;       ///< the triangle before is taken, and the clear before is done
 };
 
 }  // namespace halfspace::systemc
