@@ -94,12 +94,19 @@ def _yosys(folder: pathlib.Path, run: Run) -> dict | None:
         errors = [line for line in log if re.search("error", line, re.I)]
         run.failures += errors[-5:] or log[-15:]
         return None
-    return json.loads((folder / "result").read_text())
+    result = json.loads((folder / "result").read_text())
+    result["mapped"] = dict(
+        match.groups()
+        for match in re.finditer(r"^mapping memory [^.]+\.(\S+) via \$_+(\w+?)_*$", done.stdout, re.M)
+    )
+    return result
 
 
 def _read(run: Run, result: dict) -> None:
     wanted = run.configuration
     run.memories = result["memories"]
+    for memory in run.memories:
+        memory["ecp5"] = result["mapped"].get(memory["name"], "flip-flops")
     run.multipliers = result["multipliers"]
     run.cells = dict(result["statistics"].get("num_cells_by_type", {}))
     run.cells.pop("$scopeinfo", None)

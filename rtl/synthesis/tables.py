@@ -7,6 +7,14 @@ import re
 from synthesis.runs import Run
 from synthesis.units import UNITS
 
+# The configurations whose memories the page lists one by one: those nearest to the default machine.
+LISTED = [
+    ("setup", "sub_pixel_bits=8 Interval=1"),
+    ("tile_walker", "tile_size=8 sub_pixel_bits=8"),
+    ("edge_evaluator", "tile_size=8 sub_pixel_bits=8"),
+    ("quad_generator", "tile_size=8 quad_width=4"),
+    ("early_z", "test_width=1"),
+]
 ECP5_CELLS = ["LUT4", "CCU2C", "TRELLIS_FF", "MULT18X18D", "DP16KD", "TRELLIS_DPR16X4"]
 
 
@@ -27,6 +35,7 @@ def _entry(run: Run) -> dict:
         entry["path"] = run.path
         entry["memories"] = run.memories
     else:
+        entry["memories"] = run.memories
         entry["cells"] = {kind: run.cells.get(kind, 0) for kind in ECP5_CELLS}
     return entry
 
@@ -50,7 +59,14 @@ def write(docs: pathlib.Path, runs: list[tuple[str, Run]]) -> None:
         kept[target] = entries
     docs.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(kept, indent=1) + "\n")
-    _replace(docs / "hardware.md", {"osu018": _library(kept["osu018"]), "ecp5": _ecp5(kept["ecp5"])})
+    _replace(
+        docs / "hardware.md",
+        {
+            "osu018": _library(kept["osu018"]),
+            "ecp5": _ecp5(kept["ecp5"]),
+            "memories": _memories(kept["ecp5"]),
+        },
+    )
 
 
 def _memory_words(memories: list[dict]) -> str:
@@ -65,8 +81,9 @@ def _memory_words(memories: list[dict]) -> str:
     return ", ".join(f"{count} of {shape}" if count > 1 else shape for shape, count in counts.items())
 
 
-def _table(head: list[str], rows: list[list[str]]) -> str:
-    lines = [head, ["---" if i < 2 else "---:" for i in range(len(head))], *rows]
+def _table(head: list[str], rows: list[list[str]], words: int = 2) -> str:
+    """The first columns are words, the others numbers."""
+    lines = [head, ["---" if i < words else "---:" for i in range(len(head))], *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
@@ -88,6 +105,30 @@ def _ecp5(entries: list[dict]) -> str:
         for e in entries
     ]
     return _table(head, rows)
+
+
+def _memories(entries: list[dict]) -> str:
+    head = ["module", "memory", "words x bits", "ports", "read", "osu018", "ECP5"]
+    rows: dict[tuple, int] = {}
+    for entry in entries:
+        if (entry["top"], entry["configuration"]) not in LISTED:
+            continue
+        for memory in entry.get("memories", []):
+            row = (
+                entry["top"],
+                "`" + re.sub(r"\[\d+\]", "[]", memory["name"]) + "`",
+                f"{memory['words']} x {memory['bits']}",
+                f"{memory['writes']} write, {memory['reads']} read",
+                "registered" if memory["registered"] else "at once",
+                "memory" if memory["kept"] else "flip-flops",
+                memory["ecp5"],
+            )
+            rows[row] = rows.get(row, 0) + 1
+    lines = [
+        [row[0], row[1] + (f", {count} of them" if count > 1 else ""), *row[2:]]
+        for row, count in rows.items()
+    ]
+    return _table(head, lines, len(head))
 
 
 def _replace(path: pathlib.Path, tables: dict[str, str]) -> None:

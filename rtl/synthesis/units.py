@@ -75,8 +75,8 @@ def _tile_walker() -> Unit:
             of(4, 8),
             of(8, 8),
             of(16, 8),
-            of(8, 4),
             of(8, 8, BlockLevel="1'b0"),
+            of(8, 4, False),
             of(4, 5, False, BlockSize=8, StepInterval=8),
             of(16, 6, False, BlockSize=64, TrivialReject="1'b0"),
         ),
@@ -118,7 +118,7 @@ def _setup() -> Unit:
         ("setup",),
         (
             *(of(8, interval) for interval in (1, 4, 16)),
-            of(4, 1),
+            of(4, 1, False),
             of(5, 2, False, BlockLevel="1'b0", FifoDepth=2),
             of(6, 8, False, BlockSize=64),
         ),
@@ -151,7 +151,6 @@ def _early_z() -> Unit:
         ("early_z",),
         (
             whole(1),
-            whole(1, long=True, Lines=32),
             whole(4, False, long=True),
             whole(2, False, parts, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
             whole(1, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
@@ -167,11 +166,8 @@ def _early_z_parts() -> Unit:
         (
             Configuration("depth_sample", multipliers=SAMPLE_MULTIPLIERS),
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
-            Configuration("z_lookup", {"Z_PARTS": 4}, {"Lines": 128}, 1),
-            Configuration("z_lookup", {}, {"Lines": 128, "MemoryTiles": 65536}, 1),
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
-            Configuration("z_test", {"TEST_WIDTH": 1, "Z_PARTS": 4}),
         ),
     )
 
