@@ -97,23 +97,17 @@ module chain_tb;
     .beat_o           (dut_beat)
   );
 
-  string       fault;
-  int unsigned fault_packet, fault_bit;
-
   link_fault #(
     .Width ($bits(quad_beat_t))
   ) u_fault (
-    .clk_i    (clk),
-    .rst_ni   (rst_n),
-    .fault_i  (fault),
-    .packet_i (fault_packet),
-    .bit_i    (fault_bit),
-    .valid_i  (dut_valid),
-    .ready_o  (dut_ready),
-    .data_i   (dut_beat),
-    .valid_o  (beat_valid),
-    .ready_i  (beat_ready),
-    .data_o   (beat)
+    .clk_i   (clk),
+    .rst_ni  (rst_n),
+    .valid_i (dut_valid),
+    .ready_o (dut_ready),
+    .data_i  (dut_beat),
+    .valid_o (beat_valid),
+    .ready_i (beat_ready),
+    .data_o  (beat)
   );
 
   // Vertices around a point of the target; a draw tests depth, or has no depth.
@@ -198,9 +192,6 @@ module chain_tb;
   initial begin
     if ($value$plusargs("packets=%d", packets) == 0) packets = 500;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
-    if ($value$plusargs("fault=%s", fault) == 0) fault = "none";
-    if ($value$plusargs("fault_packet=%d", fault_packet) == 0) fault_packet = 100;
-    if ($value$plusargs("fault_bit=%d", fault_bit) == 0) fault_bit = 0;
     void'($urandom(seed));
     board = new();
     board.set($sformatf("walker.tile_size=%0d", TileSize));

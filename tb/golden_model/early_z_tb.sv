@@ -91,23 +91,17 @@ module early_z_tb;
     .flush_done_o    (flush_done)
   );
 
-  string       fault;
-  int unsigned fault_packet, fault_bit;
-
   link_fault #(
     .Width ($bits(tested_beat_t))
   ) u_fault (
-    .clk_i    (clk),
-    .rst_ni   (rst_n),
-    .fault_i  (fault),
-    .packet_i (fault_packet),
-    .bit_i    (fault_bit),
-    .valid_i  (dut_valid),
-    .ready_o  (dut_ready),
-    .data_i   (dut_beat),
-    .valid_o  (tested_valid),
-    .ready_i  (tested_ready),
-    .data_o   (tested)
+    .clk_i   (clk),
+    .rst_ni  (rst_n),
+    .valid_i (dut_valid),
+    .ready_o (dut_ready),
+    .data_i  (dut_beat),
+    .valid_o (tested_valid),
+    .ready_i (tested_ready),
+    .data_o  (tested)
   );
 
   // Memory, as wide as its ports. A line takes LineBytes, and half of them where it has 2 bytes a sample.
@@ -160,6 +154,8 @@ module early_z_tb;
     end
   end
 
+  int unsigned clear_code[2];
+
   // Two triangles in three test depth on one of the surfaces; the others have none.
   function automatic triangle_link_t random_triangle();
     triangle_link_t next;
@@ -182,8 +178,6 @@ module early_z_tb;
     next.state.tiles_x    = TileCoordBits'(Columns - 1);
     return next;
   endfunction
-
-  int unsigned clear_code[2];
 
   task automatic clear_surface(int unsigned which);
     clear_code[which] = $urandom_range(which == 0 ? 'hffff : 'h3f80_0000);
@@ -235,9 +229,6 @@ module early_z_tb;
   initial begin
     if ($value$plusargs("packets=%d", packets) == 0) packets = 200;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
-    if ($value$plusargs("fault=%s", fault) == 0) fault = "none";
-    if ($value$plusargs("fault_packet=%d", fault_packet) == 0) fault_packet = 100;
-    if ($value$plusargs("fault_bit=%d", fault_bit) == 0) fault_bit = 0;
     void'($urandom(seed));
     board = new();
     board.set($sformatf("walker.tile_size=%0d", TileSize));
@@ -256,7 +247,7 @@ module early_z_tb;
     clear_surface(0);
     clear_surface(1);
     for (int unsigned i = 0; i < packets; i++) begin
-      if ($urandom_range(30) == 0) begin
+      if ($urandom_range(30) == 0 && i + 20 < packets) begin
         clear_surface($urandom_range(1));
       end
       send(random_triangle());

@@ -2,7 +2,7 @@
 //
 // edge_evaluator of rtl/ stands for anybody's design with these ports. Nothing here is of Verilator.
 //   +packets=N  tile jobs to send (2000)     +seed=N  of the stimulus (1)
-//   +fault=none|flip|drop|repeat +fault_packet=N +fault_bit=N  breaks the design's output; see link_fault
+//   +fault=flip|drop|repeat ...   breaks the design's output: see link_fault
 
 module edge_evaluator_tb;
   import raster_pkg::*;
@@ -29,26 +29,20 @@ module edge_evaluator_tb;
     .coverage_o       (dut_coverage)
   );
 
-  string       fault;
-  int unsigned fault_packet, fault_bit;
-
   link_fault #(
     .Width ($bits(coverage_t))
   ) u_fault (
-    .clk_i    (clk),
-    .rst_ni   (rst_n),
-    .fault_i  (fault),
-    .packet_i (fault_packet),
-    .bit_i    (fault_bit),
-    .valid_i  (dut_valid),
-    .ready_o  (dut_ready),
-    .data_i   (dut_coverage),
-    .valid_o  (coverage_valid),
-    .ready_i  (coverage_ready),
-    .data_o   (coverage)
+    .clk_i   (clk),
+    .rst_ni  (rst_n),
+    .valid_i (dut_valid),
+    .ready_o (dut_ready),
+    .data_i  (dut_coverage),
+    .valid_o (coverage_valid),
+    .ready_i (coverage_ready),
+    .data_o  (coverage)
   );
 
-  // Two edges through the tile, or just past it, and one anywhere near.
+  // Edges through a pixel of the tile, or just beside it.
   function automatic tile_job_t random_job();
     tile_job_t next;
     next.slot   = SlotBits'($urandom);
@@ -112,9 +106,6 @@ module edge_evaluator_tb;
   initial begin
     if ($value$plusargs("packets=%d", packets) == 0) packets = 2000;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
-    if ($value$plusargs("fault=%s", fault) == 0) fault = "none";
-    if ($value$plusargs("fault_packet=%d", fault_packet) == 0) fault_packet = 100;
-    if ($value$plusargs("fault_bit=%d", fault_bit) == 0) fault_bit = 0;
     void'($urandom(seed));
     board = new();
     board.set($sformatf("walker.tile_size=%0d", TileSize));

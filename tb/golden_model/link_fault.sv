@@ -1,39 +1,45 @@
 // A fault on a link, for the tests that must fail: what a scoreboard has to find. Without one, two wires.
+//   +fault=none|flip|drop|repeat  what happens to a packet    +fault_packet=N  which, counted from 0 (100)
+//   +fault_bit=N                  the bit that is flipped (0)
 
 module link_fault #(
   /// Bits of the payload.
   parameter int unsigned Width = 32
 ) (
-  input  logic              clk_i,
-  input  logic              rst_ni,
-
-  /// What happens to packet number `packet_i`, counted from 0: "none", "flip" (its bit `bit_i`), "drop" or "repeat".
-  input  string             fault_i,
-  input  int unsigned       packet_i,
-  input  int unsigned       bit_i,
+  input  logic             clk_i,
+  input  logic             rst_ni,
 
   // The design
-  input  logic              valid_i,
-  output logic              ready_o,
-  input  logic [Width-1:0]  data_i,
+  input  logic             valid_i,
+  output logic             ready_o,
+  input  logic [Width-1:0] data_i,
 
   // The scoreboard
-  output logic              valid_o,
-  input  logic              ready_i,
-  output logic [Width-1:0]  data_o
+  output logic             valid_o,
+  input  logic             ready_i,
+  output logic [Width-1:0] data_o
 );
+
+  string       fault;
+  int unsigned fault_packet, fault_bit;
+
+  initial begin
+    if ($value$plusargs("fault=%s", fault) == 0) fault = "none";
+    if ($value$plusargs("fault_packet=%d", fault_packet) == 0) fault_packet = 100;
+    if ($value$plusargs("fault_bit=%d", fault_bit) == 0) fault_bit = 0;
+  end
 
   int unsigned count_q;
   logic        repeated_q;
 
   logic hit, drop, again;
-  assign hit   = count_q == packet_i;
-  assign drop  = hit && fault_i == "drop";
-  assign again = hit && fault_i == "repeat" && !repeated_q;
+  assign hit   = count_q == fault_packet;
+  assign drop  = hit && fault == "drop";
+  assign again = hit && fault == "repeat" && !repeated_q;
 
   assign valid_o = valid_i && !drop;
   assign ready_o = drop || (ready_i && !again);
-  assign data_o  = hit && fault_i == "flip" ? data_i ^ (Width'(1) << bit_i) : data_i;
+  assign data_o  = hit && fault == "flip" ? data_i ^ (Width'(1) << fault_bit) : data_i;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
