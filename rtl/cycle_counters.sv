@@ -22,24 +22,33 @@ module cycle_counters
   localparam int unsigned StageBits = $clog2(StageCount + 1);
   typedef logic [CounterBits-1:0] count_t;
 
-  count_t [StageCount-1:0] [ActivityCount-1:0] stage_q;
-  count_t                                      read_q, write_q;
+  // One write port a stage: it spends a cycle on one thing. No activity has a number of ActivityCount or above.
+  count_t stage_q [StageCount][ActivityCount];
+  count_t read_q, write_q;
+
+  always_ff @(posedge clk_i) begin
+    for (int unsigned stage = 0; stage < StageCount; stage++) begin
+      if (!rst_ni) begin
+        for (int unsigned activity = 0; activity < ActivityCount; activity++) begin
+          stage_q[stage][activity] <= '0;
+        end
+      end else begin
+        stage_q[stage][activity_i[stage]] <= stage_q[stage][activity_i[stage]] + count_t'(1);
+      end
+    end
+  end
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      stage_q <= '0;
       read_q  <= '0;
       write_q <= '0;
     end else begin
-      for (int unsigned stage = 0; stage < StageCount; stage++) begin
-        for (int unsigned activity = 0; activity < ActivityCount; activity++) begin
-          if (activity_i[stage] == ActivityBits'(activity)) begin
-            stage_q[stage][activity] <= stage_q[stage][activity] + count_t'(1);
-          end
-        end
+      if (read_busy_i) begin
+        read_q <= read_q + count_t'(1);
       end
-      read_q  <= read_q + count_t'(read_busy_i);
-      write_q <= write_q + count_t'(write_busy_i);
+      if (write_busy_i) begin
+        write_q <= write_q + count_t'(1);
+      end
     end
   end
 
@@ -51,14 +60,9 @@ module cycle_counters
 
   always_comb begin
     count_d = '0;
-    for (int unsigned s = 0; s < StageCount; s++) begin
-      for (int unsigned a = 0; a < ActivityCount; a++) begin
-        if (stage == StageBits'(s) && activity == ActivityBits'(a)) begin
-          count_d = stage_q[s][a];
-        end
-      end
-    end
-    if (stage == StageBits'(StageCount)) begin
+    if (stage < StageBits'(StageCount) && activity < ActivityBits'(ActivityCount)) begin
+      count_d = stage_q[stage][activity];
+    end else if (stage == StageBits'(StageCount)) begin
       count_d = activity == '0 ? read_q : activity == ActivityBits'(1) ? write_q : '0;
     end
   end

@@ -4,209 +4,276 @@
 // unorm: z0 + w1 (z1 - z0) + w2 (z2 - z0), w_i = E_i / 2A by the reciprocal of 2A, rounded and clamped.
 // float32: the sum of the three E_i z_i, none of which is negative, aligned to the largest; times the reciprocal,
 // rounded to 24 bits and clamped. Both share the first multipliers.
+//
+// Registers are loaded only for a sample that has depth, and only those that its kind of format needs.
 
 module depth_sample
   import raster_pkg::*;
 (
-  input  logic                  clk_i,
+  input  logic                      clk_i,
 
-  // Stage 1: pixel in the tile, E of edges 1 and 2 at the tile origin.
-  input  logic [TileLog2-1:0]   x_i,
-  input  logic [TileLog2-1:0]   y_i,
-  input  edge_t [1:0]           e_i,
+  // What all samples of a beat share comes from depth_interpolator; the number is that of the stage that it is for.
+  // Bit i of float_i: the beat in stage i + 1 is float32.
+  input  logic [7:0]                float_i,
 
-  // Element i belongs to the sample in stage i + 1.
-  input  depth_equation_t       equation_i [8],
-  input  logic [FormatBits-1:0] format_i   [8],
+  // Stage 1: this sample is to be computed; unbiased E of edges 1 and 2 at the first sample of its quad, and how much
+  // more they are at this one.
+  input  logic                      valid_i,
+  input  edge_t                     corner1_i,
+  input  edge_t                     corner2_i,
+  input  edge_t                     step1_i,
+  input  edge_t                     step2_i,
 
-  // Stage 8. Of a sample that is not covered it means nothing.
-  output logic [CodeBits-1:0]   code_o
+  // Stage 2.
+  input  edge_t                     area2_i,
+
+  // Stage 3: exponent fields of the vertices' depths, 1 for subnormal numbers.
+  input  shift_t                    shift3_i,
+  input  logic [2:0] [7:0]          exponent_i,
+
+  // Stage 4: the reciprocal of 2A, or the mantissas of the vertices' depths.
+  input  logic [2:0] [31:0]         factor_i,
+
+  // Stage 5: z1 - z0, z2 - z0.
+  input  logic signed [31:0]        difference1_i,
+  input  logic signed [31:0]        difference2_i,
+
+  // Stage 6: unorm16 and not unorm24; z0 on the scale of the terms, with half a code for the rounding.
+  input  logic                      unorm16_i,
+  input  logic signed [63:0]        offset_i,
+  input  logic [CodeBits-1:0]       min_code6_i,
+  input  logic [CodeBits-1:0]       max_code6_i,
+  input  shift_t                    shift6_i,
+
+  // Stage 7.
+  input  logic [ReciprocalBits-1:0] reciprocal_i,
+
+  // Stage 8.
+  input  logic [CodeBits-1:0]       min_code8_i,
+  input  logic [CodeBits-1:0]       max_code8_i,
+
+  // Stage 8. Means nothing where valid_i was low.
+  output logic [CodeBits-1:0]       code_o
 );
 
   localparam int unsigned WeightBits = 30;   // fraction bits of a weight
   // Signed; holds every sum of exponents of covered samples.
   localparam int unsigned ExponentBits = 11;
-  localparam logic [FormatBits-1:0] Unorm16 = 1;
-  localparam logic [FormatBits-1:0] Float32 = 4;
 
   typedef logic signed [ExponentBits-1:0] exponent_t;
-  typedef logic signed [StepBits+TileLog2-1:0] steps_t;
+  localparam exponent_t LeastExponent = {1'b1, {(ExponentBits - 1) {1'b0}}};
 
-  // Left shift that brings the top bit of a number to bit 63; 63 for 0 and 1.
-  function automatic logic [5:0] leading_zeros(logic [63:0] value);
-    logic [5:0] count;
-    count = 6'd63;
-    for (int unsigned i = 0; i < 64; i++) begin
-      if (value[i]) begin
-        count = 6'(63 - i);
+  // A number shifted left until its top bit is at bit 31 of `top`, by `zeros`; 63 for 0 and 1.
+  typedef struct packed {
+    logic [5:0]  zeros;
+    logic [31:0] top;
+  } normalized_t;
+
+  function automatic normalized_t normalize(logic [63:0] value);
+    normalized_t result;
+    logic [63:0] shifted;
+    shifted      = value;
+    result.zeros = '0;
+    for (int unsigned level = 6; level > 0; level--) begin
+      if (shifted >> (64 - (1 << (level - 1))) == '0) begin
+        result.zeros |= 6'(1 << (level - 1));
+        shifted <<= 1 << (level - 1);
       end
     end
-    return count;
+    result.top = shifted[63:32];
+    return result;
   endfunction
 
-  // A step, so many times: a shifted step for each bit of the count, which is too small for a multiplier.
-  function automatic steps_t times(step_t step, logic [TileLog2-1:0] count);
-    steps_t sum;
-    sum = '0;
-    for (int unsigned i = 0; i < TileLog2; i++) begin
-      if (count[i]) begin
-        sum = sum + (steps_t'(step) <<< i);
-      end
-    end
-    return sum;
-  endfunction
+  // Stages whose registers are loaded.
+  logic [7:0] valid, is_float, is_unorm;
+  logic [6:0] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    valid_q <= valid[6:0];
+  end
+
+  assign valid    = {valid_q, valid_i};
+  assign is_float = valid & float_i;
+  assign is_unorm = valid & ~float_i;
 
   // 1: unbiased E at the sample.
-  function automatic edge_t edge_at(edge_t origin, logic bias, step_t a, step_t b,
-                                    logic [TileLog2-1:0] x, logic [TileLog2-1:0] y);
-    edge_t steps;
-    steps = edge_t'(times(a, x)) + edge_t'(times(b, y));
-    return origin + edge_t'($signed({1'b0, bias})) + (steps <<< SubPixelBits);
-  endfunction
+  edge_t edge1_q, edge2_q;
 
-  edge_t [1:0] edge_q;
   always_ff @(posedge clk_i) begin
-    for (int unsigned i = 0; i < 2; i++) begin
-      edge_q[i] <= edge_at(e_i[i], equation_i[0].bias[i+1], equation_i[0].a[i],
-                           equation_i[0].b[i], x_i, y_i);
+    if (valid[0]) begin
+      edge1_q <= corner1_i + step1_i;
+      edge2_q <= corner2_i + step2_i;
     end
   end
 
   // 2: the three weights' numerators.
-  edge_t [2:0] weight_q;
+  edge_t weight0_q, weight1_q, weight2_q;
+
   always_ff @(posedge clk_i) begin
-    weight_q[0] <= equation_i[1].area2 - edge_q[0] - edge_q[1];
-    weight_q[1] <= edge_q[0];
-    weight_q[2] <= edge_q[1];
+    if (valid[1]) begin
+      weight0_q <= area2_i - edge1_q - edge2_q;
+      weight1_q <= edge1_q;
+      weight2_q <= edge2_q;
+    end
   end
 
   // 3: on the scale of the 32-bit 2A for unorm; with their top bit at bit 31 for float32. Exponents are of E_i z_i.
-  logic [2:0] [31:0] operand_d, operand_q;
-  exponent_t [2:0]   exponent3_d, exponent3_q;
+  logic [31:0] operand0_q, operand1_q, operand2_q;
+  exponent_t   exponent3_0_q, exponent3_1_q, exponent3_2_q;
 
-  always_comb begin
-    for (int unsigned i = 0; i < 3; i++) begin
-      automatic logic [63:0] value = 64'(weight_q[i]);
-      automatic logic [5:0] zeros = leading_zeros(value);
-      automatic logic [5:0] right = equation_i[2].shift;
-      automatic logic [5:0] left = -equation_i[2].shift;
-      automatic logic [31:0] scaled =
-          equation_i[2].shift[ShiftBits-1] ? 32'(value << left) : 32'(value >> right);
-      automatic logic [7:0] field = equation_i[2].z[i][30:23];
-      operand_d[i] = format_i[2] == Float32 ? 32'((value << zeros) >> 32) : scaled;
-      exponent3_d[i] = exponent_t'(32 - 150) - exponent_t'($signed({1'b0, zeros}))
-                       + (field == '0 ? exponent_t'(1) : exponent_t'($signed({1'b0, field})));
-    end
-  end
+  function automatic logic [31:0] scaled(edge_t weight, shift_t shift);
+    logic [63:0] value;
+    logic [5:0]  left, right;
+    value = 64'(weight);
+    right = shift;
+    left  = -shift;
+    return shift[ShiftBits-1] ? 32'(value << left) : 32'(value >> right);
+  endfunction
+  function automatic exponent_t product_exponent(logic [5:0] zeros, logic [7:0] exponent);
+    return exponent_t'(32 - 150) - exponent_t'($signed({1'b0, zeros}))
+           + exponent_t'($signed({1'b0, exponent}));
+  endfunction
 
   always_ff @(posedge clk_i) begin
-    operand_q   <= operand_d;
-    exponent3_q <= exponent3_d;
+    if (is_unorm[2]) begin
+      // The first is not needed: z0 is added with weight 1.
+      operand1_q <= scaled(weight1_q, shift3_i);
+      operand2_q <= scaled(weight2_q, shift3_i);
+    end
+    if (is_float[2]) begin
+      automatic normalized_t normal0 = normalize(64'(weight0_q));
+      automatic normalized_t normal1 = normalize(64'(weight1_q));
+      automatic normalized_t normal2 = normalize(64'(weight2_q));
+      operand0_q    <= normal0.top;
+      operand1_q    <= normal1.top;
+      operand2_q    <= normal2.top;
+      exponent3_0_q <= product_exponent(normal0.zeros, exponent_i[0]);
+      exponent3_1_q <= product_exponent(normal1.zeros, exponent_i[1]);
+      exponent3_2_q <= product_exponent(normal2.zeros, exponent_i[2]);
+    end
   end
 
   // 4: weights, or products with the mantissas.
-  logic [2:0] [63:0] product_q;
-  exponent_t [2:0]   exponent4_q;
+  logic [63:0] product0_q, product1_q, product2_q;
+  exponent_t   exponent4_0_q, exponent4_1_q, exponent4_2_q;
 
   always_ff @(posedge clk_i) begin
-    for (int unsigned i = 0; i < 3; i++) begin
-      automatic logic [31:0] factor =
-          format_i[3] == Float32 ? {8'b0, |equation_i[3].z[i][30:23], equation_i[3].z[i][22:0]}
-                                 : equation_i[3].reciprocal;
-      product_q[i] <= operand_q[i] * factor;
+    if (valid[3]) begin
+      product1_q <= operand1_q * factor_i[1];
+      product2_q <= operand2_q * factor_i[2];
     end
-    exponent4_q <= exponent3_q;
+    if (is_float[3]) begin
+      product0_q    <= operand0_q * factor_i[0];
+      exponent4_0_q <= exponent3_0_q;
+      exponent4_1_q <= exponent3_1_q;
+      exponent4_2_q <= exponent3_2_q;
+    end
   end
 
   // 5: unorm terms; the float32 sum on the scale of its largest product.
-  logic signed [63:0] term_q [3];
-  logic [63:0]        sum_d, sum_q;
-  exponent_t          top_d, top_q;
+  logic signed [63:0] term1_q, term2_q;
+  logic [63:0]        sum_q;
+  exponent_t          top_q;
 
-  always_comb begin
-    top_d = {1'b1, {(ExponentBits - 1) {1'b0}}};
-    for (int unsigned i = 0; i < 3; i++) begin
-      if (product_q[i] != '0 && exponent4_q[i] > top_d) begin
-        top_d = exponent4_q[i];
-      end
-    end
-    sum_d = '0;
-    for (int unsigned i = 0; i < 3; i++) begin
-      automatic logic [ExponentBits-1:0] shift = top_d - exponent4_q[i];
-      if (product_q[i] != '0 && shift < 64) begin
-        sum_d += product_q[i] >> shift[5:0];
-      end
-    end
-  end
+  function automatic logic signed [63:0] term(logic [WeightBits:0] weight,
+                                              logic signed [31:0] difference);
+    return $signed({33'b0, weight}) * 64'(difference);
+  endfunction
+  // Products that are 0 have no say in the scale.
+  function automatic exponent_t larger(exponent_t top, logic [63:0] product, exponent_t exponent);
+    return product != '0 && exponent > top ? exponent : top;
+  endfunction
+  function automatic logic [63:0] aligned(logic [63:0] product, exponent_t exponent,
+                                          exponent_t top);
+    logic [ExponentBits-1:0] shift;
+    shift = top - exponent;
+    return shift < 64 ? product >> shift[5:0] : '0;
+  endfunction
 
   always_ff @(posedge clk_i) begin
-    for (int unsigned i = 1; i < 3; i++) begin
-      term_q[i] <= $signed({33'b0, product_q[i][63:63-WeightBits]})
-                   * ($signed({33'b0, equation_i[4].z[i]}) - $signed({33'b0, equation_i[4].z[0]}));
+    if (is_unorm[4]) begin
+      term1_q <= term(product1_q[63:63-WeightBits], difference1_i);
+      term2_q <= term(product2_q[63:63-WeightBits], difference2_i);
     end
-    term_q[0] <= $signed({33'b0, equation_i[4].z[0]}) <<< WeightBits;
-    sum_q     <= sum_d;
-    top_q     <= top_d;
+    if (is_float[4]) begin
+      automatic exponent_t top0 = larger(LeastExponent, product0_q, exponent4_0_q);
+      automatic exponent_t top1 = larger(top0, product1_q, exponent4_1_q);
+      automatic exponent_t top = larger(top1, product2_q, exponent4_2_q);
+      sum_q <= aligned(product0_q, exponent4_0_q, top) + aligned(product1_q, exponent4_1_q, top)
+               + aligned(product2_q, exponent4_2_q, top);
+      top_q <= top;
+    end
   end
 
   // 6: the unorm code; the float32 sum with its top bit at bit 31.
-  logic [CodeBits-1:0] unorm_d, unorm6_q, unorm7_q;
+  logic [CodeBits-1:0] unorm6_q, unorm7_q;
   logic [31:0]         mantissa_q;
   exponent_t           exponent6_q, exponent7_q;
 
-  always_comb begin
-    automatic logic signed [63:0] sum = term_q[0] + term_q[1] + term_q[2];
-    automatic logic signed [63:0] code =
-        format_i[5] == Unorm16 ? (sum + (64'sd1 <<< 44)) >>> 45 : (sum + (64'sd1 <<< 36)) >>> 37;
-    if (code < $signed({32'b0, equation_i[5].min_code})) begin
-      unorm_d = equation_i[5].min_code;
-    end else if (code > $signed({32'b0, equation_i[5].max_code})) begin
-      unorm_d = equation_i[5].max_code;
-    end else begin
-      unorm_d = code[31:0];
+  function automatic logic [CodeBits-1:0] clamped(logic signed [63:0] code,
+                                                  logic [CodeBits-1:0] low,
+                                                  logic [CodeBits-1:0] high);
+    if (code < $signed({32'b0, low})) begin
+      return low;
     end
-  end
+    return code > $signed({32'b0, high}) ? high : code[31:0];
+  endfunction
 
   always_ff @(posedge clk_i) begin
-    automatic logic [5:0] zeros = leading_zeros(sum_q);
-    unorm6_q    <= unorm_d;
-    mantissa_q  <= 32'((sum_q << zeros) >> 32);
-    exponent6_q <= top_q + exponent_t'(32 - 63) - exponent_t'($signed({1'b0, zeros}))
-                   - exponent_t'(equation_i[5].shift);
+    if (is_unorm[5]) begin
+      automatic logic signed [63:0] sum = offset_i + term1_q + term2_q;
+      unorm6_q <= clamped(unorm16_i ? sum >>> 45 : sum >>> 37, min_code6_i, max_code6_i);
+    end
+    if (is_float[5]) begin
+      automatic normalized_t normal = normalize(sum_q);
+      mantissa_q  <= normal.top;
+      exponent6_q <= top_q + exponent_t'(32 - 63) - exponent_t'($signed({1'b0, normal.zeros}))
+                     - exponent_t'(shift6_i);
+    end
   end
 
   // 7: divided by 2A.
   logic [63:0] quotient_q;
+
   always_ff @(posedge clk_i) begin
-    quotient_q  <= mantissa_q * equation_i[6].reciprocal;
-    exponent7_q <= exponent6_q;
-    unorm7_q    <= unorm6_q;
+    if (is_unorm[6]) begin
+      unorm7_q <= unorm6_q;
+    end
+    if (is_float[6]) begin
+      quotient_q  <= mantissa_q * reciprocal_i;
+      exponent7_q <= exponent6_q;
+    end
   end
 
   // 8: the nearest float, halves upwards. Both factors have their top bit set, so the product has 63 or 64 bits.
-  logic [31:0] float_bits;
+  function automatic logic [CodeBits-1:0] nearest(logic [63:0] quotient, exponent_t exponent);
+    exponent_t   width, normal, subnormal, cut;
+    logic [5:0]  shift;
+    logic [31:0] rounded;
+    logic [8:0]  place;
+    width     = quotient[63] ? exponent_t'(64) : exponent_t'(63);
+    normal    = width - exponent_t'(24);
+    subnormal = exponent_t'(-149) - exponent;
+    cut       = normal > subnormal ? normal : subnormal;
+    shift     = 6'(cut - exponent_t'(1));
+    rounded   = 32'(((quotient >> shift) + 64'd1) >> 1);
+    place     = 9'(exponent + cut + exponent_t'(149));
+    return quotient == '0 || cut > width ? '0 : {place, 23'b0} + rounded;
+  endfunction
+
+  logic [CodeBits-1:0] float_code;
 
   always_comb begin
-    automatic exponent_t width = quotient_q[63] ? exponent_t'(64) : exponent_t'(63);
-    automatic exponent_t normal = width - exponent_t'(24);
-    automatic exponent_t subnormal = exponent_t'(-149) - exponent7_q;
-    automatic exponent_t cut = normal > subnormal ? normal : subnormal;
-    automatic logic [5:0] shift = 6'(cut - exponent_t'(1));
-    automatic logic [31:0] rounded = 32'(((quotient_q >> shift) + 64'd1) >> 1);
-    automatic logic [8:0] place = 9'(exponent7_q + cut + exponent_t'(149));
-    float_bits = quotient_q == '0 || cut > width ? '0 : {place, 23'b0} + rounded;
-    if (format_i[7] != Float32) begin
-      code_o = unorm7_q;
-    end else if (float_bits < equation_i[7].min_code) begin
-      code_o = equation_i[7].min_code;
-    end else if (float_bits > equation_i[7].max_code) begin
-      code_o = equation_i[7].max_code;
-    end else begin
-      code_o = float_bits;
-    end
-    if (format_i[7] == '0) begin
-      code_o = '0;
+    code_o     = unorm7_q;
+    float_code = '0;
+    if (is_float[7]) begin
+      float_code = nearest(quotient_q, exponent7_q);
+      code_o     = float_code < min_code8_i ? min_code8_i
+                   : float_code > max_code8_i ? max_code8_i : float_code;
     end
   end
+
+  logic unused_valid;
+  assign unused_valid = ^{is_float[1:0], is_unorm[1:0], is_unorm[3], is_unorm[7]};
 
 endmodule

@@ -381,11 +381,15 @@ module early_z
       };
       issued_e_q <= head.e;
     end
-    beat_q[0]  <= issued_q;
-    state_q[0] <= triangle.state;
+    if (valid_q[0]) begin
+      beat_q[0]  <= issued_q;
+      state_q[0] <= triangle.state;
+    end
     for (int unsigned i = 1; i < InterpolatorLatency; i++) begin
-      beat_q[i]  <= beat_q[i-1];
-      state_q[i] <= state_q[i-1];
+      if (valid_q[i]) begin
+        beat_q[i]  <= beat_q[i-1];
+        state_q[i] <= state_q[i-1];
+      end
     end
   end
 
@@ -396,10 +400,12 @@ module early_z
     .Quads (TestWidth)
   ) u_interpolator (
     .clk_i      (clk_i),
+    .valid_i    (valid_q[0]),
     .format_i   (triangle.format),
     .equation_i (triangle.equation),
     .e_i        (issued_e_q),
     .index_i    (issued_q.index),
+    .mask_i     (issued_q.mask),
     .code_o     (coded.codes)
   );
 

@@ -55,7 +55,17 @@ module half_plane
     .column_o (column_d)
   );
 
+  logic signs_valid;
+
   if (CutSteps) begin : gen_cut_steps
+    logic signs_valid_q;
+
+    always_ff @(posedge clk_i) begin
+      signs_valid_q <= steps_valid_i;
+    end
+
+    assign signs_valid = signs_valid_q;
+
     always_ff @(posedge clk_i) begin
       if (steps_valid_i) begin
         row_q    <= row_d;
@@ -64,12 +74,14 @@ module half_plane
     end
   end else begin : gen_no_cut_steps
     logic unused_steps;
-    assign unused_steps = ^{clk_i, steps_valid_i};
+    assign unused_steps = clk_i;
+    assign signs_valid = steps_valid_i;
     assign row_q    = row_d;
     assign column_q = column_d;
   end
 
   edge_signs u_signs (
+    .valid_i  (signs_valid),
     .row_i    (row_q),
     .column_i (column_q),
     .inside_o (inside_o)

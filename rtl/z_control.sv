@@ -135,6 +135,8 @@ module z_control
   assign scan_o       = scan;
   assign scan_part_o  = part_q;
   assign line_o       = line_q;
-  assign inspect_o    = clear | scan;
+  // From registers: a slot is looked at in the cycle in which a clear or a flush is taken, and in an idle unit nobody
+  // looks at another.
+  assign inspect_o    = idle_i | clearing_q | scanning_q;
 
 endmodule

@@ -75,7 +75,7 @@ module z_lookup
 
   // Clear: drops the lines of tiles first to last from the set of a slot, and marks them cleared from mark_from_i on.
   // And what a slot holds, for the flush. Only when the unit is idle.
-  input  logic                                   inspect_i,     // slot_i counts, not the burst
+  input  logic                                   inspect_i,     // slot_i counts, there is no burst
   input  logic [PartLineBits-1:0]                slot_i,
   input  logic                                   drop_i,
   input  logic                                   mark_i,
@@ -236,24 +236,24 @@ module z_lookup
     // A clear: dropped slots go to the end, in order.
     always_comb begin
       automatic int unsigned place = 0;
+      automatic logic [Ways-1:0] in_range = '0;
       kept    = entries;
       dropped = '0;
-      for (int unsigned i = 0; i < Ways; i++) begin
-        automatic logic in_range =
-            entries[i].tile >= clear_first_i && entries[i].tile <= clear_last_i;
-        if (entries[i].valid && !in_range) begin
-          kept[place[WayBits-1:0]] = entries[i];
-          place++;
+      if (drop_i) begin
+        for (int unsigned i = 0; i < Ways; i++) begin
+          in_range[i] = entries[i].tile >= clear_first_i && entries[i].tile <= clear_last_i;
+          if (entries[i].valid && !in_range[i]) begin
+            kept[place[WayBits-1:0]] = entries[i];
+            place++;
+          end
         end
-      end
-      for (int unsigned i = 0; i < Ways; i++) begin
-        automatic logic in_range =
-            entries[i].tile >= clear_first_i && entries[i].tile <= clear_last_i;
-        if (!entries[i].valid || in_range) begin
-          kept[place[WayBits-1:0]]       = entries[i];
-          kept[place[WayBits-1:0]].valid = 1'b0;
-          dropped[entries[i].way] = 1'b1;
-          place++;
+        for (int unsigned i = 0; i < Ways; i++) begin
+          if (!entries[i].valid || in_range[i]) begin
+            kept[place[WayBits-1:0]]       = entries[i];
+            kept[place[WayBits-1:0]].valid = 1'b0;
+            dropped[entries[i].way] = 1'b1;
+            place++;
+          end
         end
       end
     end

@@ -144,7 +144,7 @@ module z_test
            + 2 * (quad % (TileSize / 2)) + sample % 2;
   endfunction
 
-  // Codes from a line as in memory, and back.
+  // Codes from a line as in memory.
   function automatic line_t codes_of(packed_line_t bytes, logic half);
     line_t codes;
     for (int unsigned q = 0; q < PartQuads; q++) begin
@@ -154,21 +154,6 @@ module z_test
     end
     return codes;
   endfunction
-  function automatic packed_line_t memory_of(line_t codes, logic half);
-    packed_line_t bytes;
-    bytes = '0;
-    for (int unsigned q = 0; q < PartQuads; q++) begin
-      for (int unsigned s = 0; s < 4; s++) begin
-        if (half) begin
-          bytes[16*sample_at(q, s)+:16] = codes[q][s][15:0];
-        end else begin
-          bytes[32*sample_at(q, s)+:32] = codes[q][s];
-        end
-      end
-    end
-    return bytes;
-  endfunction
-
   function automatic fill_pointer_t after_fill(fill_pointer_t pointer, int unsigned steps);
     automatic int unsigned sum = int'(pointer) + steps;
     return fill_pointer_t'(sum >= MissesInFlight ? sum - MissesInFlight : sum);
@@ -349,9 +334,11 @@ module z_test
     end
   end
 
-  // The banks, and the lines as the beat sees them.
-  line_t [ZParts-1:0]  stored, line, updated;
-  logic [ZParts-1:0] [PartQuads-1:0] [3:0] wrote;
+  // The banks, and the lines as the beat sees them. A quad of which a sample is written is written whole: the others
+  // are as they were read.
+  line_t [ZParts-1:0]  stored, line;
+  logic [TileQuads-1:0] [3:0] [CodeBits-1:0] updated;
+  logic [TileQuads-1:0] [3:0] wrote;
   logic [ZParts-1:0]   wrote_part;
 
   for (genvar p = 0; p < ZParts; p++) begin : gen_part
@@ -366,15 +353,14 @@ module z_test
         .read_i       (load | ~valid_q),
         .read_line_i  (read_line),
         .codes_o      (stored[p][q]),
-        .write_i      ({4{fire}} & (wrote[p][q] | {4{first_q & header.missed[p]}})),
+        .write_i      (|wrote[p*PartQuads+q] | (swap & header.missed[p])),
         .write_line_i (header.line_index[p]),
-        .codes_i      (updated[p][q])
+        .codes_i      (updated[p*PartQuads+q])
       );
     end
 
     // The fill buffer of this part: after those of the parts before it.
     localparam logic [ZParts-1:0] Before = ZParts'((1 << p) - 1);
-    packed_line_t  fill;
     fill_pointer_t fill_slot;
     always_comb begin
       automatic int unsigned earlier = 0;
@@ -383,46 +369,50 @@ module z_test
       end
       fill_slot = after_fill(taken_q, earlier);
     end
-    assign fill = fills_q[fill_slot];
+    always_comb begin
+      line[p] = stored[p];
+      if (first_q && header.missed[p]) begin
+        if (fetched[p]) begin
+          line[p] = codes_of(fills_q[fill_slot], half_q);
+        end else begin
+          line[p] = {4 * PartQuads{clear_code_q}};
+        end
+      end
+    end
 
-    assign line[p] = !(first_q && header.missed[p]) ? stored[p]
-                     : fetched[p] ? codes_of(fill, half_q) : {4 * PartQuads{clear_code_q}};
-
-    assign wrote_part[p] = |wrote[p];
+    assign wrote_part[p] = |wrote[p*PartQuads+:PartQuads];
   end
 
-  // The comparison, and where its results go.
+  // The comparison, and where its results go. Nothing of it is of use in a cycle without a test.
   tested_beat_t result_d;
+  logic [TileQuads-1:0] [3:0] [CodeBits-1:0] tile_codes; // of the whole tile, by quad
+
+  assign tile_codes = line;
 
   always_comb begin
+    automatic logic [3:0] [CodeBits-1:0] old = '0;
+    automatic logic [CodeBits-1:0] code = '0;
+    automatic logic pass = 1'b0;
     result_d = beat_q;
     wrote    = '0;
     updated  = line;
-    for (int unsigned v = 0; v < TestWidth; v++) begin
-      for (int unsigned s = 0; s < 4; s++) begin
-        automatic logic [CodeBits-1:0] code = beat_q.depth[4*v+s];
-        automatic logic pass;
-        automatic logic covered = beat_q.mask[v][s];
-        pass = 1'b0;
-        for (int unsigned p = 0; p < ZParts; p++) begin
-          for (int unsigned q = 0; q < PartQuads; q++) begin
-            if (beat_q.index[v] == QuadIndexBits'(p * PartQuads + q)) begin
-              pass |= passes(func_q, code, line[p][q][s]);
+    if (fire) begin
+      for (int unsigned v = 0; v < TestWidth; v++) begin
+        old = tile_codes[beat_q.index[v]];
+        for (int unsigned s = 0; s < 4; s++) begin
+          code = beat_q.depth[4*v+s];
+          pass = 1'b0;
+          if (beat_q.mask[v][s]) begin
+            pass = passes(func_q, code, old[s]) | ~test_q | (func_q == '1);
+            if (pass && touches_q && write_q) begin
+              wrote[beat_q.index[v]][s]   = 1'b1;
+              updated[beat_q.index[v]][s] = code;
             end
+          end else begin
+            result_d.depth[4*v+s] = '0;
           end
+          result_d.passed[v][s] = pass;
         end
-        pass = covered & (pass | ~test_q | (func_q == '1));
-        for (int unsigned p = 0; p < ZParts; p++) begin
-          for (int unsigned q = 0; q < PartQuads; q++) begin
-            if (beat_q.index[v] == QuadIndexBits'(p * PartQuads + q) && pass && touches_q
-                && write_q) begin
-              wrote[p][q][s]   = 1'b1;
-              updated[p][q][s] = code;
-            end
-          end
-        end
-        result_d.passed[v][s]  = pass;
-        result_d.depth[4*v+s] = covered ? code : '0;
       end
     end
   end
@@ -469,13 +459,12 @@ module z_test
   } write_t;
 
   write_t          writes_q [WriteBuffers];
-  packed_line_t    lines_q  [WriteBuffers];
+  line_t           lines_q  [WriteBuffers];
   buffer_pointer_t push_q, write_slot_q;
   logic [WriteBuffers-1:0] in_use_q;
   logic [WriteCountBits-1:0] write_beat_q;
   buffer_count_t   pushed;
   buffer_pointer_t push_slot [ZParts];
-  packed_line_t    old_line  [ZParts];
   write_t          old       [ZParts];
 
   always_comb begin
@@ -489,7 +478,6 @@ module z_test
         half: swap ? header.victim_half[p] : scan_half_i[p]};
       stored_o[p]      = push[p];
       stored_tile_o[p] = old[p].tile;
-      old_line[p]      = memory_of(stored[p], old[p].half);
     end
   end
 
@@ -497,15 +485,13 @@ module z_test
     for (int unsigned p = 0; p < ZParts; p++) begin
       if (push[p]) begin
         writes_q[push_slot[p]] <= old[p];
-        lines_q[push_slot[p]]  <= old_line[p];
+        lines_q[push_slot[p]]  <= stored[p];
       end
     end
   end
 
   write_t writing;
-  packed_line_t written_line;
   assign writing       = writes_q[write_slot_q];
-  assign written_line  = lines_q[write_slot_q];
   assign write_valid_o = buffers_q != '0;
   assign write_half_o  = writing.half;
   assign write_last_o  =
@@ -519,10 +505,43 @@ module z_test
         write_line_o |= LineBits'(p);
       end
     end
-    write_data_o = written_line[WriteBits-1:0];
-    for (int unsigned i = 0; i < WriteFull; i++) begin
-      if (write_beat_q == WriteCountBits'(i)) begin
-        write_data_o = written_line[i*WriteBits+:WriteBits];
+  end
+
+  // Codes become memory's bytes as they leave, piece by piece: a piece is of one code in both formats.
+  localparam int unsigned PieceBits = WriteBits < 16 ? WriteBits : 16;
+  localparam int unsigned Pieces = WriteBits / PieceBits;    // of a beat
+  localparam int unsigned FullPieces = CodeBits / PieceBits; // of a code
+  localparam int unsigned HalfPieces = FullPieces / 2;
+  localparam int unsigned HalfLine = MaskBits / ZParts * HalfPieces;
+
+  function automatic int unsigned quad_of(int unsigned place);
+    return place / TileSize / 2 * (TileSize / 2) + place % TileSize / 2;
+  endfunction
+  function automatic int unsigned sample_of(int unsigned place);
+    return place / TileSize % 2 * 2 + place % 2;
+  endfunction
+
+  line_t written_line;
+  assign written_line = lines_q[write_slot_q];
+
+  always_comb begin
+    write_data_o = '0;
+    for (int unsigned beat = 0; beat < WriteFull; beat++) begin
+      if (write_valid_o && !writing.half && write_beat_q == WriteCountBits'(beat)) begin
+        for (int unsigned i = beat * Pieces; i < (beat + 1) * Pieces; i++) begin
+          write_data_o[i%Pieces*PieceBits+:PieceBits] =
+              written_line[quad_of(i/FullPieces)][sample_of(i/FullPieces)]
+                          [i%FullPieces*PieceBits+:PieceBits];
+        end
+      end
+    end
+    for (int unsigned beat = 0; beat < WriteHalf; beat++) begin
+      if (write_valid_o && writing.half && write_beat_q == WriteCountBits'(beat)) begin
+        for (int unsigned i = beat * Pieces; i < (beat + 1) * Pieces && i < HalfLine; i++) begin
+          write_data_o[i%Pieces*PieceBits+:PieceBits] =
+              written_line[quad_of(i/HalfPieces)][sample_of(i/HalfPieces)]
+                          [i%HalfPieces*PieceBits+:PieceBits];
+        end
       end
     end
   end
@@ -555,15 +574,17 @@ module z_test
   // Lines on their way out: victims of bursts that are not tested, and what is not yet written.
   always_comb begin
     leaving_o = 1'b0;
-    for (int unsigned i = 0; i < PendingDepth; i++) begin
-      for (int unsigned p = 0; p < ZParts; p++) begin
-        leaving_o |= leaving_part_i[p] && leaving_q[i][p]
-                     && headers_q[i].victim_tile[p] == leaving_tile_i;
+    if (leaving_part_i != '0) begin
+      for (int unsigned i = 0; i < PendingDepth; i++) begin
+        for (int unsigned p = 0; p < ZParts; p++) begin
+          leaving_o |= leaving_part_i[p] && leaving_q[i][p]
+                       && headers_q[i].victim_tile[p] == leaving_tile_i;
+        end
       end
-    end
-    for (int unsigned i = 0; i < WriteBuffers; i++) begin
-      leaving_o |= in_use_q[i] && writes_q[i].part == leaving_part_i
-                   && writes_q[i].tile == leaving_tile_i;
+      for (int unsigned i = 0; i < WriteBuffers; i++) begin
+        leaving_o |= in_use_q[i] && writes_q[i].part == leaving_part_i
+                     && writes_q[i].tile == leaving_tile_i;
+      end
     end
   end
 

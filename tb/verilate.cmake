@@ -26,6 +26,7 @@ function(halfspace_verilate target)
   set(all ${dir}/${arg_PREFIX}__all.cpp)
   add_custom_command(
     OUTPUT ${all} ${dir}/${arg_PREFIX}.h
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${dir}  # Verilator leaves what it wrote of an older design
     COMMAND ${VERILATOR_BIN} --cc --prefix ${arg_PREFIX} --Mdir ${dir} --top-module ${arg_TOP} -Wall -O3 ${checks}
             --x-assign unique --x-initial unique ${arg_ARGS} ${arg_SOURCES}
     COMMAND ${CMAKE_COMMAND} -DDIR=${dir} -DALL=${all} -P ${PROJECT_SOURCE_DIR}/tb/one_file.cmake

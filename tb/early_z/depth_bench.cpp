@@ -84,7 +84,9 @@ class DepthBench {
       next.code[static_cast<std::size_t>(s)] =
           codes[static_cast<std::size_t>((quad.y + s / 2) * kTileSize + quad.x + s % 2)];
     }
+    dut_->valid_i = 1;
     dut_->index_i = static_cast<std::uint8_t>(quad.y / 2 * (kTileSize / 2) + quad.x / 2);
+    dut_->mask_i = quad.mask;
     dut_->clk_i = 0;
     dut_->eval();
     if (expected_.size() == kLatency) {

@@ -37,6 +37,10 @@ class FaultyPipeline final : public VerilatedPipeline {
   void settle(const PipelineInputs& in, PipelineOutputs& out) override {
     in_ = in;
     here_ = false;
+    if (in.reset) {  // before it registers hold anything
+      pipeline_->settle(in, out);
+      return;
+    }
     if (in.fill_valid && fault_ == PipelineFault::kFlipFill && due()) {
       in_.fill[0] ^= 1;
     }

@@ -22,9 +22,10 @@ CycleStats* stats_of(DrawContext* draw) { return draw == nullptr ? nullptr : dra
 
 }  // namespace
 
-CycleMeter::CycleMeter(const Config& config) {
+CycleMeter::CycleMeter(const Config& config, PacketReport& report) : report_(report) {
   const std::array<int, kFifos> capacity = capacities(config);
   for (std::size_t i = 0; i < kLinks; ++i) {
+    capacity_[i] = static_cast<std::size_t>(capacity[i]);
     links_[i] = LinkMeter(capacity[i]);
   }
 }
@@ -56,11 +57,22 @@ void CycleMeter::add(std::size_t stage, std::size_t activity, DrawContext* draw)
 }
 
 void CycleMeter::take(Link link, DrawContext* draw, Cycle cycle) {
-  held_[static_cast<std::size_t>(link)].push_back({.draw = draw, .since = cycle});
+  const auto i = static_cast<std::size_t>(link);
+  if (held_[i].size() == capacity_[i]) {
+    report_.differ(fmt::format("link {}: more than its {} credits are in use in cycle {}", kLinkName[i],
+                               capacity_[i], cycle));
+    held_[i].pop_front();
+  }
+  held_[i].push_back({.draw = draw, .since = cycle});
 }
 
 void CycleMeter::give_back(Link link, Cycle usable) {
   const auto i = static_cast<std::size_t>(link);
+  if (held_[i].empty()) {
+    report_.differ(
+        fmt::format("link {}: a credit comes back before cycle {} that nobody had", kLinkName[i], usable));
+    return;
+  }
   const Held held = held_[i].front();
   held_[i].pop_front();
   links_[i].add(held.since, usable);

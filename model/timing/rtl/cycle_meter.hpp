@@ -8,6 +8,7 @@
 
 #include "halfspace/timing/frame_source.hpp"
 #include "halfspace/timing/link_meter.hpp"
+#include "halfspace/timing/rtl/packet_check.hpp"
 
 namespace halfspace::rtl {
 
@@ -23,7 +24,7 @@ class CycleMeter {
  public:
   using Cycle = std::uint64_t;
 
-  explicit CycleMeter(const Config& config);
+  CycleMeter(const Config& config, PacketReport& report);
 
   /// In the coming cycle the stage begins with a packet of `draw`.
   void begins(Stage stage, DrawContext* draw);
@@ -34,7 +35,7 @@ class CycleMeter {
     }
   }
 
-  /// A packet takes a credit of the link in this cycle.
+  /// A packet takes a credit of the link in this cycle. One more than there are is a difference.
   void take(Link link, DrawContext* draw, Cycle cycle);
   /// The oldest packet that holds one leaves; the credit can be used again from this cycle on.
   void give_back(Link link, Cycle usable);
@@ -54,6 +55,8 @@ class CycleMeter {
   void flush(Stage stage, DrawContext* next);
   void add(std::size_t stage, std::size_t activity, DrawContext* draw);
 
+  PacketReport& report_;
+  std::array<std::size_t, kLinks> capacity_{};
   std::array<LinkMeter, kLinks> links_;
   std::array<std::deque<Held>, kLinks> held_;
   ActivityCounts since_{};  ///< since the stage's packet has begun

@@ -83,7 +83,7 @@ class RtlRun {
         report_(report),
         widths_(widths(config)),
         walker_(walker_config(config)),
-        meter_(config),
+        meter_(config, report),
         triangle_check_("setup", widths_, report),
         equation_check_("setup (depth equation)", widths_, report),
         state_check_("setup (draw state)", widths_, report),
