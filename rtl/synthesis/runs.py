@@ -91,7 +91,7 @@ def _yosys(folder: pathlib.Path, run: Run) -> dict | None:
     ]
     run.failures += list(dict.fromkeys(warnings))
     if done.returncode != 0:
-        errors = [line for line in log if re.search("error", line, re.I)]
+        errors = [line for line in log if line.startswith("ERROR") or "error:" in line]
         run.failures += errors[-5:] or log[-15:]
         return None
     result = json.loads((folder / "result").read_text())
