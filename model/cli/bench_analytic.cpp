@@ -83,7 +83,7 @@ void add_bench_analytic(CLI::App& bench) {
   auto options = std::make_shared<AnalyticOptions>();
   CLI::App* command =
       bench.add_subcommand("analytic", "error of the analytic fidelity against the recurrence");
-  command->add_option("INPUT", options->inputs, "frames or meshes")->required();
+  command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   command->add_option("--config", options->configs, "configuration file, repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);

@@ -107,7 +107,7 @@ void bench_time(const TimeOptions& options) {
 void add_bench_time(CLI::App& bench) {
   auto options = std::make_shared<TimeOptions>();
   CLI::App* command = bench.add_subcommand("time", "run time of every fidelity and of re-timing");
-  command->add_option("INPUT", options->inputs, "frames or meshes")->required();
+  command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
   command->add_option("--repeat", options->repeat, "timed runs")
       ->check(CLI::Range(1, 1000))

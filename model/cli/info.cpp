@@ -5,6 +5,7 @@
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/scene/synthetic.hpp"
 
 namespace halfspace {
 namespace {
@@ -93,6 +94,7 @@ void add_info_command(CLI::App& app, int& /*status*/) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "show what a frame or a mesh holds");
   options->input.add_to(*command);
+  command->footer("Synthetic frames, built in memory:\n" + synthetic_help());
   command->add_flag("--commands", options->commands, "one line a draw and clear");
   command->callback([options] { info(*options); });
 }

@@ -26,9 +26,10 @@ TEST_CASE("a file that is missing, a folder or empty is refused") {
 
 TEST_CASE("an unknown extension is refused with the known ones") {
   CHECK(error_of([] { return load("a.stl"); }) ==
-        "a.stl: extension is \".stl\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb");
+        "a.stl: extension is \".stl\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb, or "
+        "synthetic:NAME");
   CHECK(error_of([] { return load("a"); }) ==
-        "a: extension is \"\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb");
+        "a: extension is \"\"; legal: .ptf, .ptf.gz, .ptf.xz, .obj, .ply, .gltf, .glb, or synthetic:NAME");
   CHECK(error_of([] { return load(""); }).find("legal: .ptf") != std::string::npos);
   CHECK(error_of([] { return read_mesh("a.ptf"); }) ==
         "a.ptf: extension is \".ptf\"; legal: .obj, .ply, .gltf, .glb");
