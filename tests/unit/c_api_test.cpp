@@ -126,8 +126,11 @@ class Reference {
                      .cull_front = draw.cull_front != 0,
                      .cull_back = draw.cull_back != 0,
                      .bottom_left_rule = draw.bottom_left_rule != 0,
-                     .bounds = {draw.x_first, draw.y_first, draw.x_last, draw.y_last},
+                     .bounds = {},
                      .depth_format = static_cast<DepthFormat>(draw.format)};
+    if (draw.empty == 0) {
+      state.bounds = {draw.x_first, draw.y_first, draw.x_last, draw.y_last};
+    }
     draw_ = draw;
     if (setup(in, state, triangle_) != SetupVerdict::kDrawn) {
       return;
@@ -296,14 +299,23 @@ void check_random(const Machine& machine, DepthFormat format) {
   Reference<TileSize> reference(machine, format, kWidth, kHeight, one(format));
   TriangleSource source(5, kWidth, machine.widths.SubPixelBits);
   DrawStatePacket draw = draw_state(machine, format);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 30; ++i) {
     if (i % 5 == 0) {
       draw.func = static_cast<std::uint8_t>(source.integer(0, 7));
       draw.write = static_cast<std::uint8_t>(source.integer(0, 1));
       draw.test = format == DepthFormat::kNone ? 0 : static_cast<std::uint8_t>(source.integer(0, 5) != 0);
       draw.bottom_left_rule = static_cast<std::uint8_t>(source.integer(0, 1));
+      draw.front_positive_area = static_cast<std::uint8_t>(source.integer(0, 1));
+      draw.cull_front = static_cast<std::uint8_t>(source.integer(0, 3) == 0);
+      draw.cull_back = static_cast<std::uint8_t>(source.integer(0, 3) == 0);
     }
-    reference.triangle(source.next(largest_vertex_depth(format)), draw);
+    draw.empty = i % 10 == 7 ? 1 : 0;
+    ScreenTriangle triangle = source.next(largest_vertex_depth(format));
+    if (i % 2 == 0) {  // a flat side through samples: the rules for top, left and bottom decide
+      triangle.v[0].y = triangle.v[1].y = (source.integer(0, kHeight) << machine.widths.SubPixelBits) +
+                                          (1 << (machine.widths.SubPixelBits - 1));
+    }
+    reference.triangle(triangle, draw);
   }
   for (int to = HALFSPACE_SETUP_TRIANGLE; to < HALFSPACE_LINKS; ++to) {
     check_from(machine, reference, format, HALFSPACE_TRIANGLE, to);
