@@ -152,7 +152,7 @@ def _early_z() -> Unit:
         (
             whole(1),
             whole(4, False, long=True),
-            whole(2, False, parts, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
+            whole(2, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
             whole(1, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
         ),
     )
