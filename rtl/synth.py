@@ -27,7 +27,7 @@ def describe(run: Run) -> str:
     return ", ".join(words)
 
 
-def run_all(options: argparse.Namespace, targets: list[str]) -> list[tuple[str, Run]]:
+def run_all(options: argparse.Namespace, targets: list[str]) -> list[Run]:
     done = []
     for name in options.units or UNITS:
         for configuration in UNITS[name].configurations:
@@ -44,7 +44,9 @@ def run_all(options: argparse.Namespace, targets: list[str]) -> list[tuple[str, 
                 print(f"{label} [{target}]: {verdict} ({run.seconds:.1f} s)", flush=True)
                 for failure in run.failures:
                     print(f"    {failure}", flush=True)
-                done.append((name, run))
+                done.append(run)
+                if options.table and not run.failures:
+                    tables.write(options.docs, run)
     return done
 
 
@@ -68,9 +70,7 @@ def main() -> int:
         print(f"synth.py --library osu018 {missing_tools()}", file=sys.stderr)
         return 1
     done = run_all(options, targets or ["none"])
-    if options.table:
-        tables.write(options.docs, [(name, run) for name, run in done if not run.failures])
-    return 0 if done and not any(run.failures for _, run in done) else 1
+    return 0 if done and not any(run.failures for run in done) else 1
 
 
 if __name__ == "__main__":

@@ -40,11 +40,11 @@ def _entry(run: Run) -> dict:
     return entry
 
 
-def write(docs: pathlib.Path, runs: list[tuple[str, Run]]) -> None:
-    """Puts the runs in the place of older ones of the same configuration; those of no unit any more go."""
+def write(docs: pathlib.Path, run: Run) -> None:
+    """Puts the run in the place of an older one of the same configuration; those of no unit any more go."""
     path = docs / "hardware.json"
     figures = json.loads(path.read_text()) if path.exists() else {}
-    known = {(run.target, run.configuration.top, run.configuration.label): run for _, run in runs}
+    new = (run.target, run.configuration.top, run.configuration.label)
     kept = {}
     for target in ("osu018", "ecp5"):
         old = {(e["top"], e["configuration"]): e for e in figures.get(target, [])}
@@ -52,8 +52,8 @@ def write(docs: pathlib.Path, runs: list[tuple[str, Run]]) -> None:
         for unit in UNITS.values():
             for configuration in unit.configurations:
                 key = (configuration.top, configuration.label)
-                if (target, *key) in known:
-                    entries.append(_entry(known[(target, *key)]))
+                if (target, *key) == new:
+                    entries.append(_entry(run))
                 elif configuration.measured and key in old:
                     entries.append(old[key])
         kept[target] = entries
