@@ -3,7 +3,7 @@
     .venv/bin/python rtl/synth.py [--quick] [UNIT...]           # elaborates only: latches, warnings, multipliers
     .venv/bin/python rtl/synth.py --library osu018 [UNIT...]    # gates of a library, flip-flops, longest path
     .venv/bin/python rtl/synth.py --target ecp5 [UNIT...]       # cells of an FPGA
-    .venv/bin/python rtl/synth.py --table [UNIT...]             # both, and the tables of docs/hardware.md
+    .venv/bin/python rtl/synth.py --table [UNIT...]             # both, or the one named, and the tables of docs/hardware.md
 """
 
 import argparse
@@ -64,7 +64,7 @@ def main() -> int:
     if unknown:
         parser.error(f"no such unit: {', '.join(sorted(unknown))}")
     targets = [target for target in (options.library, options.target) if target]
-    if options.table:
+    if options.table and not targets:
         targets = ["osu018", "ecp5"]
     if "osu018" in targets and missing_tools():
         print(f"synth.py --library osu018 {missing_tools()}", file=sys.stderr)
