@@ -2,315 +2,211 @@
 """Mutation test of a unit's bench: changes the unit's SystemVerilog in one place, builds and runs
 the bench, and tells what found the change, or that nothing did.
 
-    tools/mutate.py edge_evaluator --count 10 --seed 1
-    tools/mutate.py quad_generator --model t8_w4_p1 --model t4_w4_p2 -- --tiles 2000
+    tools/mutate.py quad_generator                        # 16 mutants, the unit's default models
+    tools/mutate.py early_z --count 30 --seed 7 --page docs/mutation.md
+    tools/mutate.py setup --file setup_cull --model t8_s8 -- --tiles 20000
+    tools/mutate.py raster_pipeline                       # and what only the pipeline's bench sees
 
 A build folder must hold the unit's bench; its own commands are run again on a copy of the sources.
-A mutant that survives is one that no case tells from the original: a hole of the bench, or a change
-that changes nothing.
+The sample is drawn by kind of change and by source file, as evenly as they go. A mutant of which no
+program comes is stillborn: another is drawn in its place. One that survives is a hole of the bench,
+or listed with its reason in tools/mutants_equivalent.toml; exit status 1 when it is neither.
 """
 
 import argparse
 import pathlib
 import random
 import re
-import shlex
-import shutil
-import subprocess
 import sys
-import tempfile
 import time
-from dataclasses import dataclass
+from collections import Counter
+from datetime import date
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-RTL = ROOT / "rtl"
-# Printed, or checkers themselves.
-NOT_MUTATED = {"raster_pkg", "handshake_checker"}
-KINDS = {
-    10: "payload",
-    11: "missing",
-    12: "order",
-    13: "extra",
-    14: "handshake",
-    15: "timing",
-    16: "deadlock",
-    17: "assertion",
-    18: "functional coverage",
+from mutant_bench import PipelineBench, Stillborn, UnitBench, find, models_of, show
+from mutants import ROOT, Equivalents, change_of, is_activity, mutants_of
+
+# Of each unit the models that a mutant must survive, and the options of a short run of all cases.
+DEFAULTS = {
+    "setup": (["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
+    "tile_walker": (["t8_b32", "t4_b64", "t16_b32_noblocks"], ["--tiles", "40000"]),
+    "quad_generator": (["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
+    "edge_evaluator": (["t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
+    "early_z": (["t4", "parts"], ["--bursts", "16000"]),
+    "raster_pipeline": (["small_no_dfg"], ["--triangles", "6000"]),
 }
-OPERATORS = {
-    "==": ["!="],
-    "!=": ["=="],
-    "<=": ["<"],
-    ">=": [">"],
-    "<": ["<="],
-    ">": [">="],
-    "&&": ["||"],
-    "||": ["&&"],
-    "&": ["|"],
-    "|": ["&"],
-    "^": ["|"],
-    "+": ["-"],
-    "-": ["+"],
-    "<<": [">>"],
-    ">>": ["<<"],
-    ">>>": [">>"],
-    "&=": ["|="],
-    "|=": ["&="],
-}
-OPERATOR = re.compile(r"<<<|>>>|<<|>>|==|!=|<=|>=|&&|\|\||\+\+|--|->|\+:|-:|[-+*/&|^<>]=|[<>&|^+-]")
-NUMBER = re.compile(r"(?<![\w'.])\d+(?![\w'])")
-BIT = re.compile(r"1'b([01])\b")
-FILL = re.compile(r"(?<!\w)'([01])(?![\w'])")
-NEGATION = re.compile(r"[~!](?=[\w(])")
-TERM = r"[~!]?\w+(?:\.\w+)*(?:\[[^][]*\])?"
-RIGHT_TERM = re.compile(rf"\s+&&?\s+{TERM}(?=\s*[;,)&|\n?:])")
-LEFT_TERM = re.compile(rf"(?:(?<=[=?:]\s)|(?<=[(|]))({TERM}\s+&&?\s+)(?=[\w(~!])")
-OPERANDS = re.compile(rf"({TERM})(\s+(?:-|<<|>>)\s+)({TERM})(?=\s*[;,)\n])")
-CHOICE = re.compile(r"\?\s*([^?:;()\n]+?)\s*:\s*([^?:;()\n]+?)(?=\s*[;,)])")
+SURVIVED = "**survived**"
+HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
 
 
-@dataclass(frozen=True)
-class Mutant:
-    file: str
-    start: int
-    end: int
-    text: str
-    what: str
+class Sample:
+    """Draws from the kind of change, then from the file, that the fewest live mutants are of yet."""
+
+    def __init__(self, mutants, seed):
+        self.left = list(mutants)
+        self.random = random.Random(seed)
+        self.kinds = Counter()
+        self.files = Counter()
+
+    def draw(self):
+        def rarest(counts, values):
+            values = sorted(values)
+            self.random.shuffle(values)
+            return min(values, key=lambda value: counts[value])
+
+        kind = rarest(self.kinds, {m.kind for m in self.left})
+        file = rarest(self.files, {m.file for m in self.left if m.kind == kind})
+        mutant = self.random.choice([m for m in self.left if (m.kind, m.file) == (kind, file)])
+        self.left.remove(mutant)
+        return mutant
+
+    def live(self, mutant):
+        self.kinds[mutant.kind] += 1
+        self.files[mutant.file] += 1
 
 
-def blank(text, pattern, flags=0):
-    """The text with all that matches replaced by blanks, so that positions stay."""
-    return re.sub(pattern, lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=flags)
+def row_of(mutant):
+    change = change_of(mutant)
+    code = [text.replace("|", "\\|") for text in (change.before, change.after)]
+    return f"| {mutant.file}.sv:{change.line} | {mutant.kind} | `{code[0]}` | `{code[1]}` |"
 
 
-def code_only(text):
-    """What may be mutated: no comments, strings, assertions, declarations, headers, loops' heads."""
-    text = blank(text, r"/\*.*?\*/|//[^\n]*", re.S)
-    text = blank(text, r"\"[^\"\n]*\"")
-    text = blank(text, r"`ifndef SYNTHESIS.*?`endif", re.S)
-    text = blank(text, r"`ifdef SYNTHESIS.*?`endif", re.S)
-    text = blank(text, r"\(\*.*?\*\)")
-    text = blank(text, r"`[^\n]*")
-    text = blank(text, r"\b(?:module|package)\b.*?\)\s*;", re.S)
-    text = blank(text, r"\btypedef\b.*?;", re.S)
-    text = blank(text, r"\bfor\s*\([^)]*\)")
-    text = blank(text, r"\b(?:logic|bit|\w+_t)\b\s*(?:\[[^;\n]*\]\s*)?[\w\s,]+(?:\[[^;\n]*\])?;")
-    return blank(text, r"\b(?:logic|bit)\b\s*(?:signed\s*)?\[[^]\n]*\]")
-
-
-def is_binary(code, position):
-    before = code[:position].rstrip()
-    return bool(before) and (before[-1].isalnum() or before[-1] in "_)]}'")
-
-
-def is_assignment(code, position):
-    """Whether <= at this position is a non-blocking assignment."""
-    statement = re.split(r";|\bbegin\b|\bend\b|\belse\b", code[:position])[-1]
-    depth = statement.count("(") - statement.count(")")
-    return depth == 0 and not re.search(r"[^=!<>]=[^=]", statement)
-
-
-def candidates(name, text):
-    code = code_only(text)
-
-    def mutant(start, end, replacement, what):
-        return Mutant(name, start, end, replacement, what)
-
-    for match in OPERATOR.finditer(code):
-        operator = match.group()
-        if operator not in OPERATORS or not is_binary(code, match.start()):
+def mutants_for(bench, files):
+    """The bench's: the pipeline's are its own modules, and of the units what their benches miss."""
+    own = {"raster_pipeline", "cycle_counters"}
+    for name in bench.sources:
+        if files and name not in files:
             continue
-        if operator == "<=" and is_assignment(code, match.start()):
-            continue
-        for other in OPERATORS[operator]:
-            yield mutant(*match.span(), other, "operator")
-    for match in NUMBER.finditer(code):
-        value = int(match.group())
-        for other in {value + 1, max(value - 1, 0)} - {value}:
-            yield mutant(*match.span(), str(other), "constant")
-    for match in BIT.finditer(code):
-        yield mutant(*match.span(), f"1'b{1 - int(match.group(1))}", "constant")
-    for match in FILL.finditer(code):
-        yield mutant(*match.span(), f"'{1 - int(match.group(1))}", "constant")
-    for match in NEGATION.finditer(code):
-        yield mutant(*match.span(), "", "negation removed")
-    for match in RIGHT_TERM.finditer(code):
-        yield mutant(*match.span(), "", "term dropped")
-    for match in LEFT_TERM.finditer(code):
-        yield mutant(*match.span(1), "", "term dropped")
-    for match in OPERANDS.finditer(code):
-        yield mutant(*match.span(), "".join(match.group(3, 2, 1)), "operands swapped")
-    for match in CHOICE.finditer(code):
-        yield mutant(*match.span(), f"? {match.group(2)} : {match.group(1)}", "choice swapped")
+        for mutant in mutants_of(name):
+            if is_activity(mutant) == (bench.unit == "raster_pipeline") or name in own:
+                yield mutant
 
 
-@dataclass
-class Model:
-    """One verilated configuration: the commands that make its part of the bench."""
-
-    name: str
-    prefix: str
-    verilate: str
-    compile: list
+def sections(page):
+    """What stands before the first unit of a page, and the units' parts."""
+    text = page.read_text() if page.exists() else ""
+    parts = re.split(r"^## (\w+)\n", text, flags=re.M)
+    return parts[0], dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
-class Bench:
-    def __init__(self, unit, build):
-        self.target = f"{unit}_bench"
-        self.build = build
-        self.folder = build / "tb" / unit
-        done = subprocess.run(
-            ["ninja", "-C", build, "-t", "commands", self.target],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        commands = [c for c in done.stdout.splitlines() if c and not c.startswith("ninja:")]
-        self.link = commands[-1]
-        self.models = {}
-        for command in commands:
-            match = re.search(r"--prefix (\S+)", command)
-            if not match:
-                continue
-            prefix = match.group(1)
-            compiles = [c for c in commands if " -c " in c and self.holds(c, prefix)]
-            makers = "".join(self.text_of(c) for c in compiles if prefix not in self.source_of(c).name)
-            name = re.search(r"\bmake_(\w+)\(", makers).group(1)
-            self.models[name] = Model(name, prefix, command, compiles)
-        verilate = next(iter(self.models.values())).verilate
-        sources = re.findall(rf"{re.escape(str(RTL))}/(\w+)\.sv", verilate)
-        self.sources = [name for name in sources if name not in NOT_MUTATED]
-
-    @staticmethod
-    def source_of(command):
-        return pathlib.Path(shlex.split(command)[-1])
-
-    def text_of(self, command):
-        return (self.build / self.source_of(command)).read_text()
-
-    def holds(self, command, prefix):
-        """Whether a compilation is of what Verilator writes for `prefix`, or of its wrapper."""
-        source = self.source_of(command)
-        if source.name == f"{prefix}__all.cpp":
-            return True
-        return source.parent == self.folder and f'#include "{prefix}.h"' in self.text_of(command)
-
-    def make(self, model, folder):
-        """Builds the bench with `model` made of the sources in `folder`; what went wrong, or None."""
-        made = folder / model.prefix
-        place = [(str(RTL) + "/", f"{folder}/rtl/"), (str(self.folder / model.prefix), str(made))]
-        link = self.link
-        error = self.run(model.verilate, place)
-        if error:
-            warning = re.search(r"%(?:Warning|Error)-(\w+)", error)
-            return f"verilator: {warning.group(1) if warning else 'error'}"
-        for command in model.compile:
-            object_file = re.search(r" -o (\S+)", command).group(1)
-            new_object = str(folder / pathlib.Path(object_file).name)
-            if self.run(command, [*place, (object_file, new_object)]):
-                return "C++ compiler"
-            link = link.replace(object_file, new_object)
-        executable = re.search(r" -o (\S+)", link).group(1)
-        return "linker" if self.run(link, [(f" -o {executable}", f" -o {folder}/bench")]) else None
-
-    def run(self, command, replacements):
-        for old, new in replacements:
-            command = command.replace(old, new)
-        done = subprocess.run(command, shell=True, cwd=self.build, capture_output=True, text=True)
-        return None if done.returncode == 0 else done.stdout + done.stderr + "error"
-
-    def verdict(self, model, folder, arguments, limit):
-        """What the bench found, or None."""
-        command = [folder / "bench", "--model", model.name, "--failure-wave", "none", *arguments]
-        try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=limit, cwd=folder)
-        except subprocess.TimeoutExpired:
-            return f"{model.name}: time limit"
-        if done.returncode == 0:
-            return None
-        failed = re.search(r"^FAIL \S+ \S+: (\w+)", done.stdout, re.M)
-        kind = KINDS.get(done.returncode, f"exit status {done.returncode}")
-        return f"{model.name} {failed.group(1) if failed else 'all cases'}: {kind}"
+def found_before(page, unit):
+    """By row what found a mutant, as the page has it."""
+    lines = sections(page)[1].get(unit, "").splitlines() if page else []
+    rows = (line.rpartition(" | ") for line in lines if re.match(r"\| \w+\.sv:", line))
+    return {f"{row} |": found[:-2] for row, _, found in rows if found[:-2] != SURVIVED}
 
 
-def try_mutant(bench, models, mutant, arguments, limit):
-    """What finds `mutant`, or None; of None in its place, what is wrong with the original."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = pathlib.Path(name)
-        shutil.copytree(RTL, folder / "rtl")
-        if mutant:
-            file = folder / "rtl" / f"{mutant.file}.sv"
-            text = file.read_text()
-            file.write_text(text[: mutant.start] + mutant.text + text[mutant.end :])
-        for model in models:
-            found = bench.make(model, folder) or bench.verdict(model, folder, arguments, limit)
-            if found:
-                return found
-    return None
-
-
-def describe(mutant):
-    text = (RTL / f"{mutant.file}.sv").read_text()
-    line = text.count("\n", 0, mutant.start) + 1
-    first = text.rfind("\n", 0, mutant.start) + 1
-    last = text.find("\n", mutant.end)
-    before = text[first:last].strip()
-    after = (text[first : mutant.start] + mutant.text + text[mutant.end : last]).strip()
-    code = [" ".join(part.split()).replace("|", "\\|") for part in (before, after)]
-    return f"{mutant.file}.sv:{line} | {mutant.what} | `{code[0]}` | `{code[1]}`"
+def write_page(page, unit, text):
+    head, units = sections(page)
+    units[unit] = text
+    order = [name for name in DEFAULTS if name in units]
+    table = [
+        "| unit | live | killed | equivalent | survived | stillborn |",
+        "| --- | ---: | ---: | ---: | ---: | ---: |",
+    ]
+    sums = Counter()
+    for name in order:
+        counts = dict(re.findall(r"(\w+) (\d+)", units[name].split(", of ")[0]))
+        table.append(f"| [{name}](#{name}) | {' | '.join(counts.values())} |")
+        sums.update({key: int(value) for key, value in counts.items()})
+    table.append(f"| all | {' | '.join(map(str, sums.values()))} |")
+    head = re.sub(r"(\| unit \| live .*?\n)\n", "\n".join(table) + "\n\n", head, flags=re.S)
+    page.write_text(head + "".join(f"## {name}\n{units[name]}" for name in order))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("unit", help="the bench is the target UNIT_bench")
-    parser.add_argument("--count", type=int, default=10, help="mutants, 0 for all (default 10)")
-    parser.add_argument("--seed", type=int, default=1, help="chooses the mutants (default 1)")
-    parser.add_argument("--file", action="append", help="only of this module, repeatable")
-    parser.add_argument("--model", action="append", help="to run, repeatable (default: the first)")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--limit", type=float, default=120, help="seconds for a run (default 120)")
-    parser.add_argument("--list", action="store_true", help="list the mutants, run nothing")
-    parser.epilog = "What follows -- are options of the bench."
     own = sys.argv[1:]
     arguments = []
     if "--" in own:
         arguments = own[own.index("--") + 1 :]
         own = own[: own.index("--")]
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("unit", choices=DEFAULTS, help="a unit's bench, or the pipeline's")
+    parser.add_argument("--count", type=int, default=16, help="live mutants, 0 for all (default 16)")
+    parser.add_argument("--seed", type=int, default=1, help="chooses the mutants (default 1)")
+    parser.add_argument("--file", action="append", help="only of this module, repeatable")
+    parser.add_argument("--model", action="append", help="to run, repeatable (default: by unit)")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--limit", type=float, default=120, help="seconds for a run (default 120)")
+    parser.add_argument("--page", type=pathlib.Path, help="Markdown file whose part of the unit is written")
+    parser.add_argument(
+        "--keep", action="store_true", help="do not run again what the page says was found, where the text is the same"
+    )
+    parser.add_argument("--list", action="store_true", help="list the mutants, run nothing")
+    parser.epilog = "What follows -- are options of the bench."
     options = parser.parse_args(own)
 
-    bench = Bench(options.unit, options.build.resolve())
-    names = options.model or [next(iter(bench.models))]
-    unknown = [name for name in names if name not in bench.models]
-    if unknown:
-        parser.error(f"no model {', '.join(unknown)}; there are {', '.join(bench.models)}")
-    models = [bench.models[name] for name in names]
-    all_mutants = []
-    for name in bench.sources:
-        if options.file is None or name in options.file:
-            found = set(candidates(name, (RTL / f"{name}.sv").read_text()))
-            all_mutants += sorted(found, key=lambda m: (m.start, m.end, m.text))
-    chosen = all_mutants
-    if 0 < options.count < len(all_mutants):
-        chosen = random.Random(options.seed).sample(all_mutants, options.count)
-    wrong = None if options.list else try_mutant(bench, models, None, arguments, options.limit)
-    if wrong:
-        print(f"the original fails: {wrong}", file=sys.stderr)
+    build = options.build.resolve()
+    bench = PipelineBench(build) if options.unit == "raster_pipeline" else UnitBench(options.unit, build)
+    names, default_arguments = DEFAULTS[options.unit]
+    models = models_of(bench, options.model or names)
+    arguments = arguments or default_arguments
+    mutants = list(mutants_for(bench, options.file))
+    if options.list:
+        print("\n".join(map(row_of, mutants)))
+        return 0
+
+    equivalents = Equivalents()
+    stale = list(equivalents.stale())
+    if stale:
+        print("\n".join(["stale entries of the list of equivalent mutants:", *stale]), file=sys.stderr)
         return 1
-    print(f"{len(chosen)} of {len(all_mutants)} mutants of {options.unit}\n")
-    print("| place | change | before | after | found by | s |\n| --- | --- | --- | --- | --- | --- |")
-    survivors = 0
-    for mutant in chosen:
+    for model in models:
+        wrong = find(bench, [model], None, arguments, options.limit)
+        if wrong:
+            print(f"the original fails: {wrong}", file=sys.stderr)
+            return 1
+
+    known = found_before(options.page, options.unit) if options.keep else {}
+    counts = Counter()
+    rows = []
+    refused = Counter()
+    sample = Sample(mutants, options.seed)
+    print("\n".join(HEAD))
+    while sample.left and (options.count == 0 or counts["live"] < options.count):
+        mutant = sample.draw()
+        row = row_of(mutant)
+        reason = equivalents.reason(mutant)
         start = time.monotonic()
-        if options.list:
-            print(f"| {describe(mutant)} | | |")
+        try:
+            found = known.get(row) or find(bench, models, mutant, arguments, options.limit)
+        except Stillborn as why:
+            refused[str(why)] += 1
+            print(f"{row} stillborn: {why} | {time.monotonic() - start:.0f}", flush=True)
             continue
-        found = try_mutant(bench, models, mutant, arguments, options.limit)
-        survivors += found is None
-        seconds = time.monotonic() - start
-        print(f"| {describe(mutant)} | {found or '**survived**'} | {seconds:.0f} |", flush=True)
-    if not options.list:
-        print(f"\n{len(chosen) - survivors} of {len(chosen)} killed")
-    return 0
+        if reason and (found is None or row in known):
+            found = f"equivalent: {reason}"
+            counts["equivalent"] += 1
+        elif reason:
+            print(f"listed as equivalent, but found: {row} {found}", file=sys.stderr)
+            return 1
+        else:
+            counts["survived" if found is None else "killed"] += 1
+        counts["live"] += 1
+        sample.live(mutant)
+        rows.append(f"{row} {found or SURVIVED} |")
+        print(f"{rows[-1]} {time.monotonic() - start:.0f}", flush=True)
+
+    counts["stillborn"] = sum(refused.values())
+    numbers = [f"{key} {counts[key]}" for key in ("live", "killed", "equivalent", "survived", "stillborn")]
+    why = ", ".join(f"{reason} {count}" for reason, count in refused.most_common())
+    command = f"tools/mutate.py {options.unit} --count {options.count} --seed {options.seed}"
+    command += "".join(f" --file {name}" for name in options.file or [])
+    text = [
+        "",
+        f"{', '.join(numbers)}, of {len(mutants)} mutants{f' ({why})' if why else ''}.",
+        "",
+        f"{date.today()}, `{command}`: models {', '.join(model.name for model in models)}, bench options "
+        f"`{show(arguments)}`.",
+        "",
+        *HEAD,
+        *rows,
+        "",
+        "",
+    ]
+    print("\n".join(text[1:4]))
+    if options.page:
+        write_page(options.page, options.unit, "\n".join(text))
+    return 1 if counts["survived"] else 0
 
 
 if __name__ == "__main__":
