@@ -7,12 +7,13 @@
 
 namespace halfspace {
 
-void add_bench_command(CLI::App& app, int& /*status*/) {
+void add_bench_command(CLI::App& app, int& status) {
   CLI::App* bench = app.add_subcommand("bench", "measure the model");
   bench->require_subcommand(1);
   add_bench_speed(*bench);
   add_bench_time(*bench);
   add_bench_analytic(*bench);
+  add_bench_error(*bench, status);
 }
 
 }  // namespace halfspace

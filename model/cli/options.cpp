@@ -166,11 +166,15 @@ StallPlan StallOptions::plan() const {
   return plan;
 }
 
-void RtlOptions::add_to(CLI::App& command) {
+void RtlOptions::add_folder_to(CLI::App& command) {
   command
       .add_option("--rtl-folder", folder,
                   "where the verilated pipelines are (default: lib/halfspace beside the program's folder)")
       ->type_name("DIR");
+}
+
+void RtlOptions::add_to(CLI::App& command) {
+  add_folder_to(command);
   command.add_option("--rtl-seed", seed, "of what the RTL's registers hold before reset (default: 0)")
       ->type_name("N");
   command

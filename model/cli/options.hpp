@@ -53,6 +53,7 @@ struct RtlOptions {
   std::string wave;
 
   void add_to(CLI::App& command);
+  void add_folder_to(CLI::App& command);
   /// Throws InputError.
   [[nodiscard]] std::unique_ptr<rtl::VerilatedPipeline> pipeline(const Config& config) const;
 };

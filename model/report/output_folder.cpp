@@ -13,6 +13,7 @@
 #include <set>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/report/error_table.hpp"
 #include "halfspace/report/stats.hpp"
 
 namespace halfspace {
@@ -20,20 +21,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether every entry of the folder was written by one run, as its stats.json says.
-bool is_result(const fs::path& folder) {
-  std::ifstream file(folder / kStatsFile);
-  const nlohmann::json stats = nlohmann::json::parse(file, nullptr, false);
-  if (!stats.is_object() || stats.value("schema", "") != kStatsSchema || !stats["files"].is_array()) {
+/// Whether every entry of the folder was written by one run, as the list in `index` says.
+bool is_result(const fs::path& folder, const char* index, const char* schema) {
+  std::ifstream file(folder / index);
+  const nlohmann::json list = nlohmann::json::parse(file, nullptr, false);
+  if (!list.is_object() || list.value("schema", "") != schema || !list["files"].is_array()) {
     return false;
   }
-  const auto names = stats["files"].get<std::set<std::string>>();
+  const auto names = list["files"].get<std::set<std::string>>();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!entry.is_regular_file() || names.count(entry.path().filename().string()) == 0) {
       return false;
     }
   }
   return true;
+}
+
+/// Of a run or of a bench.
+bool is_result(const fs::path& folder) {
+  return is_result(folder, kStatsFile, kStatsSchema) || is_result(folder, kErrorFile, kErrorSchema);
 }
 
 }  // namespace

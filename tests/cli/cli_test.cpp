@@ -159,7 +159,7 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   check_error(place.run("run " + cube + " --set walker.tile_size=16 --set walker.block_size=16"),
               {"walker.block_size", "16"});
   check_error(place.run("run " + cube + " --set late_z"), {"late_z", "KEY=VALUE"});
-  check_error(place.run("run " + cube + " --fidelity rtl"), {"rtl", "functional"});
+  check_error(place.run("run " + cube + " --fidelity guess"), {"guess", "functional", "rtl"});
   check_error(place.run("run " + cube + " --quads"), {"--quads", "--out"});
   check_error(place.run("run " + cube + " --timeline"), {"--timeline", "--out"});
   check_error(place.run("run " + cube + " --timeline-draws 0:1"), {"--timeline-draws", "--timeline"});

@@ -1,0 +1,151 @@
+/// halfspace bench error: run time against error, every fidelity beside the RTL on the same frames.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/options.hpp"
+#include "halfspace/cli/progress.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/report/error_table.hpp"
+#include "halfspace/report/output_folder.hpp"
+#include "halfspace/scene/load.hpp"
+#include "halfspace/scene/synthetic.hpp"
+#include "halfspace/timing/analytic/analytic.hpp"
+#include "halfspace/timing/functional.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/timing/rtl/run_rtl.hpp"
+#include "halfspace/timing/systemc/run_systemc.hpp"
+
+namespace halfspace {
+namespace {
+
+struct ErrorOptions {
+  std::vector<std::string> inputs;
+  MachineOptions machine;
+  RtlOptions rtl;
+  std::string out;
+  int repeat = 5;
+  double rtl_seconds = 2;
+  bool synthetic = false;
+
+  [[nodiscard]] std::vector<std::string> all_inputs() const {
+    std::vector<std::string> all = inputs;
+    for (const SyntheticInfo& info : synthetic_frames()) {
+      if (synthetic) {
+        all.push_back(std::string(kSyntheticPrefix) + std::string(info.name));
+      }
+    }
+    if (all.empty()) {
+      throw InputError(
+          "bench error: no INPUT is given; legal: frames, meshes, synthetic:NAME, or --synthetic");
+    }
+    return all;
+  }
+};
+
+/// Runs `frame` once and keeps what came of it; returns milliseconds. Results of a run are those of the one
+/// before.
+double run_once(const Frame& frame, const Config& config, const RtlOptions& options, FidelityRun& run) {
+  TimedRun timed;
+  double time = 0;
+  if (run.fidelity == "functional") {
+    return milliseconds([&] { run.result = run_functional(frame, config, false, nullptr); });
+  }
+  if (run.fidelity == "analytic") {
+    AnalyticFrame& estimate = run.estimate.emplace();
+    return milliseconds([&] { run.result = run_analytic(frame, config, false, nullptr, estimate); });
+  }
+  if (run.fidelity == "recurrence") {
+    time = milliseconds([&] { run.result = run_recurrence(frame, config, false, nullptr, timed); });
+  } else if (run.fidelity == "systemc") {
+    time = milliseconds([&] { run.result = run_systemc(frame, config, false, nullptr, timed, {}); });
+  } else {
+    const std::unique_ptr<rtl::VerilatedPipeline> pipeline = options.pipeline(config);
+    rtl::PacketReport report;
+    time =
+        milliseconds([&] { run.result = run_rtl(frame, config, false, nullptr, timed, *pipeline, report); });
+    run.packets = {.compared = report.compared, .different = report.different};
+    if (report.different != 0) {
+      fmt::print(stderr, "halfspace: {}: RTL and model differ: {}\n", frame.name, report.first);
+    }
+  }
+  run.cycles = std::move(timed.cycles);
+  return time;
+}
+
+WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOptions& options) {
+  std::vector<FidelityRun> runs(5);
+  for (std::size_t i = 0; const char* fidelity : {"functional", "analytic", "recurrence", "systemc", "rtl"}) {
+    runs[i++].fidelity = fidelity;
+  }
+  ProgressBar bar(frame.name);
+  const auto turns = static_cast<std::size_t>(options.repeat) + 1;
+  double rtl_time = 0;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      bar.update(turn * runs.size() + i, turns * runs.size());
+      const bool rtl = &runs[i] == &runs.back();
+      // The first turn warms caches and page tables; the RTL, whose runs are long, does without where it is
+      // out of time.
+      if (rtl && rtl_time > options.rtl_seconds * 1e3) {
+        continue;
+      }
+      const double time = run_once(frame, config, options.rtl, runs[i]);
+      rtl_time += rtl ? time : 0;
+      if (turn > 0 || (rtl && rtl_time > options.rtl_seconds * 1e3)) {
+        runs[i].milliseconds.push_back(time);
+      }
+    }
+  }
+  return compare_fidelities(frame.name, runs);
+}
+
+/// Returns the exit status.
+int bench_error(const ErrorOptions& options) {
+  ErrorTable table{.config = options.machine.config(), .repeat = options.repeat, .workloads = {}};
+  const std::vector<std::string> inputs = options.all_inputs();
+  (void)options.rtl.pipeline(table.config);  // without it there is nothing to compare with: said at once
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) {
+    folder.emplace(options.out);
+  }
+  for (const std::string& input : inputs) {
+    table.workloads.push_back(measure(load(input), table.config, options));
+  }
+  if (folder) {
+    write_error_files(*folder, table);
+    folder->commit();
+    fmt::print("results in {}\n", options.out);
+  } else {
+    fmt::print("{}", error_markdown(table));
+  }
+  return table.function_agrees() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_bench_error(CLI::App& bench, int& status) {
+  auto options = std::make_shared<ErrorOptions>();
+  CLI::App* command =
+      bench.add_subcommand("error", "run time against error: every fidelity beside the verilated RTL");
+  command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME");
+  command->add_flag("--synthetic", options->synthetic, "all synthetic frames, after the others");
+  options->machine.add_to(*command);
+  command->add_option("--repeat", options->repeat, "timed runs")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--rtl-seconds", options->rtl_seconds,
+                   "no further run of the RTL on a frame that took it so long already")
+      ->check(CLI::Range(0.0, 86400.0))
+      ->capture_default_str();
+  options->rtl.add_folder_to(*command);
+  command
+      ->add_option("--out", options->out,
+                   "folder for error.md, error.csv and error.json (default: print the tables)")
+      ->type_name("DIR");
+  command->callback([options, &status] { status = bench_error(*options); });
+}
+
+}  // namespace halfspace
