@@ -30,7 +30,7 @@ DEFAULTS = {
     "setup": (["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
     "tile_walker": (["t8_b32", "t4_b64", "t16_b32_noblocks"], ["--tiles", "40000"]),
     "quad_generator": (["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
-    "edge_evaluator": (["t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
+    "edge_evaluator": (["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
     "early_z": (["t4", "parts"], ["--bursts", "16000"]),
     "raster_pipeline": (["small_no_dfg"], ["--triangles", "6000"]),
 }
