@@ -3,6 +3,7 @@
 BUILD := build/release
 HALFSPACE := $(BUILD)/bin/halfspace
 PYTHON_TOOLS := .venv/.installed
+PLOT_TOOLS := .venv/.plot_installed
 
 .DEFAULT_GOAL := help
 
@@ -33,6 +34,18 @@ rtl: build/release/build.ninja ## Verilate the pipeline of every named configura
 bench: release-program ## Measure the functional model on the shipped frames.
 	$(HALFSPACE) bench speed scenes/*.ptf.xz
 
+# Captured frames that do not ship, where the tests look for them.
+SCENES := $(wildcard scenes/*.ptf.xz)
+FRAMES = $(or $(HALFSPACE_FRAMES),$(shell sed -n 's/^HALFSPACE_FRAMES:PATH=//p' $(BUILD)/CMakeCache.txt))
+CAPTURED = $(filter-out $(addprefix %/,$(notdir $(SCENES))),$(wildcard $(FRAMES)/*.ptf.xz))
+
+.PHONY: bench-error
+bench-error: build/release/build.ninja $(PLOT_TOOLS) ## Measure every fidelity beside the RTL; write docs/guides/error.md's tables and picture.
+	cmake --build --preset release --target halfspace_cli halfspace_rtl_baseline
+	$(HALFSPACE) bench error --config configs/baseline.toml $(SCENES) $(CAPTURED) --synthetic --out out/error
+	.venv/bin/python tools/plot_error.py out/error/error.json docs/images/error.png
+	tools/replace_block.py docs/guides/error.md bench-error out/error/error.md
+
 .PHONY: release debug
 release debug: %: build/%/build.ninja
 	cmake --build --preset $@
@@ -50,6 +63,11 @@ packages:
 	@sh tools/install_packages.sh
 
 $(PYTHON_TOOLS): tools/requirements.txt | packages
+	/usr/bin/python3 -m venv .venv
+	.venv/bin/pip install --quiet --requirement $<
+	touch $@
+
+$(PLOT_TOOLS): tools/requirements-plot.txt | packages
 	/usr/bin/python3 -m venv .venv
 	.venv/bin/pip install --quiet --requirement $<
 	touch $@

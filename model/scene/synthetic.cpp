@@ -92,8 +92,8 @@ class Generator {
     for (std::size_t i = 0; i < 3; ++i) {
       triangle[i] = {to_grid(scale * shape[i].x), to_grid(scale * shape[i].y), real(z)};
     }
-    const auto [left, right] = std::ranges::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-    const auto [top, bottom] = std::ranges::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+    const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+    const auto [top, bottom] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
     const std::int64_t x = random_.integer(-left, size_.width * kGrid - right);
     const std::int64_t y = random_.integer(-top, size_.height * kGrid - bottom);
     for (Corner& corner : triangle) {

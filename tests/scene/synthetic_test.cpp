@@ -146,7 +146,7 @@ TEST_CASE("one_triangle covers half of 512x512") {
   CHECK(frame.targets[0].height == 512);
   const std::vector<Triangle> triangles = triangles_of(frame);
   REQUIRE(triangles.size() == 1);
-  CHECK(area(triangles[0]) == 512 * 512 / 2);
+  CHECK(area(triangles[0]) == 131072);
   // The diagonal meets 512 pixel centres, and is a right edge of the triangle: none of them is inside.
   const FrameResult result = run_functional(frame, Config{}, false, nullptr);
   CHECK(result.counters.quad_generator.fragments == 512 * 511 / 2);
