@@ -1,7 +1,9 @@
 /// halfspace bench error: run time against error, every fidelity beside the RTL on the same frames.
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
+#include <optional>
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
@@ -44,54 +46,75 @@ struct ErrorOptions {
   }
 };
 
-/// Runs `frame` once and keeps what came of it; returns milliseconds. Results of a run are those of the one
-/// before.
-double run_once(const Frame& frame, const Config& config, const RtlOptions& options, FidelityRun& run) {
+using RunOnce = double(const Frame&, const Config&, const RtlOptions&, FidelityRun&);
+
+double functional_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/,
+                       FidelityRun& run) {
+  return milliseconds([&] { run.result = run_functional(frame, config, false, nullptr); });
+}
+
+double analytic_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/, FidelityRun& run) {
+  AnalyticFrame& estimate = run.estimate.emplace();
+  return milliseconds([&] { run.result = run_analytic(frame, config, false, nullptr, estimate); });
+}
+
+double recurrence_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/,
+                       FidelityRun& run) {
   TimedRun timed;
-  double time = 0;
-  if (run.fidelity == "functional") {
-    return milliseconds([&] { run.result = run_functional(frame, config, false, nullptr); });
-  }
-  if (run.fidelity == "analytic") {
-    AnalyticFrame& estimate = run.estimate.emplace();
-    return milliseconds([&] { run.result = run_analytic(frame, config, false, nullptr, estimate); });
-  }
-  if (run.fidelity == "recurrence") {
-    time = milliseconds([&] { run.result = run_recurrence(frame, config, false, nullptr, timed); });
-  } else if (run.fidelity == "systemc") {
-    time = milliseconds([&] { run.result = run_systemc(frame, config, false, nullptr, timed, {}); });
-  } else {
-    const std::unique_ptr<rtl::VerilatedPipeline> pipeline = options.pipeline(config);
-    rtl::PacketReport report;
-    time =
-        milliseconds([&] { run.result = run_rtl(frame, config, false, nullptr, timed, *pipeline, report); });
-    run.packets = {.compared = report.compared, .different = report.different};
-    if (report.different != 0) {
-      fmt::print(stderr, "halfspace: {}: RTL and model differ: {}\n", frame.name, report.first);
-    }
-  }
+  const double time =
+      milliseconds([&] { run.result = run_recurrence(frame, config, false, nullptr, timed); });
   run.cycles = std::move(timed.cycles);
   return time;
 }
 
-WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOptions& options) {
-  std::vector<FidelityRun> runs(5);
-  for (std::size_t i = 0; const char* fidelity : {"functional", "analytic", "recurrence", "systemc", "rtl"}) {
-    runs[i++].fidelity = fidelity;
+double systemc_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/, FidelityRun& run) {
+  TimedRun timed;
+  const double time =
+      milliseconds([&] { run.result = run_systemc(frame, config, false, nullptr, timed, {}); });
+  run.cycles = std::move(timed.cycles);
+  return time;
+}
+
+double rtl_once(const Frame& frame, const Config& config, const RtlOptions& rtl, FidelityRun& run) {
+  const std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl.pipeline(config);
+  TimedRun timed;
+  rtl::PacketReport report;
+  const double time =
+      milliseconds([&] { run.result = run_rtl(frame, config, false, nullptr, timed, *pipeline, report); });
+  run.cycles = std::move(timed.cycles);
+  run.packets = {.compared = report.compared, .different = report.different};
+  if (report.different != 0) {
+    fmt::print(stderr, "halfspace: {}: RTL and model differ: {}\n", frame.name, report.first);
   }
+  return time;
+}
+
+/// Each runs a frame once, puts what came of it in place of what an earlier run left, and returns
+/// milliseconds.
+struct Fidelity {
+  const char* name;
+  RunOnce* run;
+};
+constexpr std::array kFidelities{Fidelity{"functional", functional_once}, Fidelity{"analytic", analytic_once},
+                                 Fidelity{"recurrence", recurrence_once}, Fidelity{"systemc", systemc_once},
+                                 Fidelity{"rtl", rtl_once}};
+
+WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOptions& options) {
+  std::vector<FidelityRun> runs(kFidelities.size());
   ProgressBar bar(frame.name);
   const auto turns = static_cast<std::size_t>(options.repeat) + 1;
   double rtl_time = 0;
   for (std::size_t turn = 0; turn < turns; ++turn) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       bar.update(turn * runs.size() + i, turns * runs.size());
-      const bool rtl = &runs[i] == &runs.back();
+      const bool rtl = kFidelities[i].run == rtl_once;
       // The first turn warms caches and page tables; the RTL, whose runs are long, does without where it is
       // out of time.
       if (rtl && rtl_time > options.rtl_seconds * 1e3) {
         continue;
       }
-      const double time = run_once(frame, config, options.rtl, runs[i]);
+      const double time = kFidelities[i].run(frame, config, options.rtl, runs[i]);
+      runs[i].fidelity = kFidelities[i].name;
       rtl_time += rtl ? time : 0;
       if (turn > 0 || (rtl && rtl_time > options.rtl_seconds * 1e3)) {
         runs[i].milliseconds.push_back(time);
