@@ -3,8 +3,8 @@
 //
 // The first beat of a burst is taken in cycle f. Its draw state and the tags are looked at in f + 1; from then on one
 // missing part is resolved in a cycle, in order of parts: found cleared, or asked for, once the line is out of the
-// cache and, if it is to be fetched, a fill buffer is free. The next burst is taken when all beats have moved and all
-// parts are resolved. beat_ready_o comes from registers and the tags, not from an input.
+// cache and, if it is to be fetched, a fill buffer is free. The next burst is taken when all beats have moved, from the
+// cycle in which the last part is resolved on. beat_ready_o comes from registers and the tags, not from an input.
 
 module z_lookup
   import raster_pkg::*;
@@ -317,7 +317,8 @@ module z_lookup
   // From cycle f + 1 on: the missing parts, the lowest first.
   logic [ZParts-1:0] left, left_d, left_q, part;
   logic [ZParts-1:0] fetched_d, fetched_q;
-  logic              is_cleared, resolve;
+  logic              is_cleared, resolve, ask;
+  logic              waits_q; // a request, for memory to take it
   fill_t             fills_d, fills_q;
 
   assign left           = fresh_q ? missed_o : left_q;
@@ -325,21 +326,44 @@ module z_lookup
   assign is_cleared     = |(cleared & part);
   assign leaving_part_o = part;
   assign leaving_tile_o = tile;
-  assign read_valid_o   = left != '0 && !leaving_i && !is_cleared && fills_q != '0;
-  assign resolve        = left != '0 && !leaving_i
-                          && (is_cleared || (fills_q != '0 && read_ready_i));
+  assign resolve        = left != '0 && !leaving_i && (is_cleared || fills_q != '0) && !waits_q;
+  assign ask            = resolve & ~is_cleared;
   assign left_d         = resolve ? left & ~part : left;
-  assign fetched_d      = (fresh_q ? '0 : fetched_q) | (resolve && !is_cleared ? part : '0);
+  assign fetched_d      = (fresh_q ? '0 : fetched_q) | (ask ? part : '0);
   assign resolved_o     = (fresh_q || left_q != '0) && left_d == '0;
   assign fetched_o      = fetched_d;
-  assign read_half_o    = half_i;
+
+  logic [LineBits-1:0] line;
 
   always_comb begin
-    read_line_o = LineBits'(tile) * LineBits'(ZParts);
+    line = LineBits'(tile) * LineBits'(ZParts);
     for (int unsigned p = 0; p < ZParts; p++) begin
       if (part[p]) begin
-        read_line_o |= LineBits'(p);
+        line |= LineBits'(p);
       end
+    end
+  end
+
+  // A request that memory does not take at once waits here, so that beat_ready_o need not know of it.
+  logic                waiting_half_q;
+  logic [LineBits-1:0] waiting_line_q;
+
+  assign read_valid_o = waits_q | ask;
+  assign read_line_o  = waits_q ? waiting_line_q : line;
+  assign read_half_o  = waits_q ? waiting_half_q : half_i;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      waits_q <= 1'b0;
+    end else begin
+      waits_q <= read_valid_o & ~read_ready_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (ask) begin
+      waiting_line_q <= line;
+      waiting_half_q <= half_i;
     end
   end
 
@@ -348,7 +372,7 @@ module z_lookup
     for (int unsigned p = 0; p < ZParts; p++) begin
       fills_d += fill_t'(fill_free_i[p]);
     end
-    fills_d -= fill_t'(resolve && !is_cleared);
+    fills_d -= fill_t'(ask);
   end
 
   always_ff @(posedge clk_i) begin
@@ -365,11 +389,11 @@ module z_lookup
     fetched_q <= fetched_d;
   end
 
-  assign beat_ready_o = middle_q | (credit_q & (fresh_q ? missed_o == '0 : left_q == '0));
+  assign beat_ready_o = middle_q | (credit_q & left_d == '0);
   assign activity_o   = beat_valid_i && beat_ready_o ? ZLookupBusy
-                        : resolve                    ? ZLookupRequest
-                        : left != '0 && leaving_i    ? ZLookupWriteBack
-                        : left != '0                 ? ZLookupFillBuffers
+                        : left_d != '0 && resolve    ? ZLookupRequest
+                        : left_d != '0 && leaving_i  ? ZLookupWriteBack
+                        : left_d != '0               ? ZLookupFillBuffers
                         : beat_valid_i               ? ZLookupPendingFull : ZLookupNoBurst;
   assign idle_o       = ~middle_q & ~fresh_q & free_q == credit_t'(PendingDepth);
 

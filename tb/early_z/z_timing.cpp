@@ -80,6 +80,7 @@ class Contract {
     const Cycle moved = f + static_cast<Cycle>(beats(command.quads, shape_.widths.QuadWidth));
     Cycle there = 0;
     Cycle resolve_next = f + 1;
+    Cycle resolved = 0;  // the last part
     std::size_t fetched = 0;
     for (const ZMiss& miss : command.misses.parts()) {
       const auto buffers = static_cast<std::size_t>(shape_.misses);
@@ -95,6 +96,7 @@ class Contract {
                                           {"fill buffers", waits ? swaps_[j - buffers] + 1 : 0}}};
       const Cycle r = latest(terms).cycle;
       coverage_.hit(fmt::format("r decided by {}", latest(terms).name));
+      resolved = r;
       resolve_next = r + 1;
       if (!miss.fetch) {
         there = std::max(there, r);
@@ -117,10 +119,7 @@ class Contract {
       there = std::max(there, filled_next_ - 1);
       ++fetched;
     }
-    lookup_next_ = std::max(moved, resolve_next);
-    if (command.misses.count == 0) {
-      lookup_next_ = moved;
-    }
+    lookup_next_ = std::max(moved, resolved);
     test(command, seen, k, f, there);
   }
 

@@ -203,13 +203,15 @@ class RecurrenceCore {
   T resolve(Misses misses, const T& f, const T& moved) {
     T resolve_next = f + 1;
     T there{};
+    T last{};
     std::size_t sent = 0;
     for (const ZMiss& part : misses) {
       const T out = later(resolve_next, out_.get(part.line));
       const T r = part.fetch ? later(out, fifo(Fifo::kFillBuffers).usable(sent)) : out;
       if constexpr (Probe::kLooks) {
-        probe_.request(moved, resolve_next, out, r);
+        probe_.request(moved, resolve_next, out, r, &part == &misses.back());
       }
+      last = r;
       resolve_next = r + 1;
       if (!part.fetch) {
         there = later(there, resolve_next);
@@ -222,7 +224,7 @@ class RecurrenceCore {
         probe_.read(machine_.read_cycles[log2_bytes(part.bytes)], there);
       }
     }
-    f_next_ = later(moved, resolve_next);
+    f_next_ = later(moved, last);
     return there;
   }
 

@@ -86,12 +86,12 @@ class CycleProbe {
 
   /// A missing part that could be resolved from `ready` on was out of the cache from `out` on, and resolved
   /// in `r`, when a fill buffer was free; of these cycles those count in which no beat moves any more, from
-  /// `moved` on.
-  void request(Cycle moved, Cycle ready, Cycle out, Cycle r) {
+  /// `moved` on. In that of the last part the next burst may be taken already: it is not this one's.
+  void request(Cycle moved, Cycle ready, Cycle out, Cycle r, bool last) {
     const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };
     wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
     wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
-    wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(r + 1));
+    wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(last ? r : r + 1));
   }
 
   void test(Cycle f, Cycle free, Cycle filled, Cycle slots, Cycle b, Cycle beats) {

@@ -189,6 +189,9 @@ class RtlRun {
     if (in_.triangle_valid && out_.triangle_ready) {
       take_triangle();
     }
+    if (out_.read_valid) {
+      request();  // of the burst before one whose lookup begins in this cycle
+    }
     if (out_.events != 0) {
       rest_ = 0;
       links();
@@ -197,7 +200,9 @@ class RtlRun {
       rest_ = 0;
       take_tested_beat();
     }
-    use_memory();
+    if (out_.write_valid) {
+      write();
+    }
     clock_edge();
     ++cycle_;
     end_clear_or_flush();
@@ -604,17 +609,6 @@ class RtlRun {
 
   // Memory.
 
-  void use_memory() {
-    if (out_.read_valid) {
-      rest_ = 0;
-      request();
-    }
-    if (out_.write_valid) {
-      rest_ = 0;
-      write();
-    }
-  }
-
   /// A line of memory that the RTL works on, and its size, are those that the model says.
   void check_line(const char* what, std::uint32_t line, std::uint32_t want, bool half) {
     ++report_.compared;
@@ -630,6 +624,7 @@ class RtlRun {
   }
 
   void request() {
+    rest_ = 0;
     if (!expected(requests_, "requests")) {
       return;
     }
@@ -643,6 +638,7 @@ class RtlRun {
   }
 
   void write() {
+    rest_ = 0;
     if (!expected(written_for_, "writes") || !expected(writes_, "writes")) {
       return;
     }

@@ -111,14 +111,16 @@ void EarlyZ::look_up(Cycle at) {
       }
     }
   }
-  Cycle next = at + 1;
+  Cycle last = at;
   for (int part = 0; part < parts; ++part) {
     if ((token.missed >> part & 1) == 0) {
       continue;
     }
-    next = resolve(part, next) + 1;
+    const bool more = token.missed >> part != 1;
+    last = resolve(part, last + 1);
+    lookup_meter_.stalled(stall::kLookupRequest, more ? last + 1 : last);
   }
-  next_lookup_ = std::max(next_lookup_, next);
+  next_lookup_ = std::max(next_lookup_, last);
 }
 
 /// A missing part, in cycle `earliest` or later: asks memory for it, unless it is only marked cleared.
@@ -143,7 +145,6 @@ Cycle EarlyZ::resolve(int part, Cycle earliest) {
   const Cycle at = std::max({earliest, buffer, left});
   run_.clock.wait_until(at);
 
-  lookup_meter_.stalled(stall::kLookupRequest, at + 1);
   const Cycle there = fetch ? request(line) : at;
   looked_up_.fetched |= static_cast<std::uint8_t>((fetch ? 1u : 0u) << part);
   looked_up_.there = std::max(looked_up_.there, there + 1);
