@@ -71,8 +71,9 @@ def speed(data, fidelity):
 def scatter(axes, fidelity, at):
     marker, colour = STYLE.get(fidelity, ("x", "#CC79A7"))
     axes.scatter(
-        *zip(*at), marker=marker, s=26, facecolor=colour, edgecolor="white", linewidth=0.6, alpha=0.85, zorder=3
-    )
+        *zip(*at), marker=marker, s=26, facecolor=colour, edgecolor="white", linewidth=0.6, alpha=0.85,
+        zorder=3,
+    )  # fmt: skip
 
 
 def label(axes, names):
@@ -85,15 +86,18 @@ def label(axes, names):
         px, py = axes.transData.transform((x, y))
         size = 4 * scale
         taken.append(matplotlib.transforms.Bbox.from_extents(px - size, py - size, px + size, py + size))
+    points_taken = len(taken)
     if axes.get_legend():
         taken.append(axes.get_legend().get_window_extent(renderer))
+    lines = []  # points along the lines from names to what they name
     frame = axes.get_window_extent(renderer)
     places = [(6, 0, "left", "center"), (-6, 0, "right", "center")]
     places += [(0, 5, "center", "bottom"), (0, -5, "center", "top")]
     for distance in (14, 22, 30, 38, 48):
         for share in (0.5, 1, 0):
             for up in (distance, -distance):
-                places += [(distance * share + 3, up, "left", "center"), (-distance * share - 3, up, "right", "center")]
+                aside = distance * share + 3
+                places += [(aside, up, "left", "center"), (-aside, up, "right", "center")]
     for x, y, text in sorted(names, key=lambda name: -name[1]):
         for place, (dx, dy, horizontal, vertical) in enumerate(places):
             note = axes.annotate(
@@ -105,8 +109,16 @@ def label(axes, names):
             note.update_positions(renderer)
             box = matplotlib.text.Text.get_window_extent(note, renderer)  # without its line
             inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1
-            if inside and not any(box.overlaps(other) for other in taken):
+            line = []
+            if place > 3:
+                start = axes.transData.transform((x, y))
+                end = box.x0 + box.width / 2, box.y0 + box.height / 2
+                line = [[a + (b - a) * i / 20 for a, b in zip(start, end)] for i in range(21)]
+            crosses = any(other.contains(*p) for other in taken[points_taken:] for p in line)
+            covers = any(box.contains(*p) for p in lines)
+            if inside and not crosses and not covers and not any(box.overlaps(other) for other in taken):
                 taken.append(box)
+                lines += line
                 break
             note.remove()
 
@@ -121,7 +133,9 @@ def draw(data):
     exact = {f: [p for p in ps if p[2] == 0] for f, ps in found.items()}
     untimed = {f: [p for p in ps if p[2] is None] for f, ps in found.items()}
     lanes = [(f, "no cycles", ps) for f, ps in untimed.items() if ps]
-    lanes = [(f, "the truth" if f == data["truth"] else "0 %", ps) for f, ps in reversed(exact.items()) if ps] + lanes
+    for fidelity, ps in exact.items():
+        if ps:
+            lanes.insert(0, (fidelity, "the truth" if fidelity == data["truth"] else "0 %", ps))
 
     figure, (above, below) = plt.subplots(
         2, 1, sharex=True, figsize=(9, 7), dpi=140, layout="constrained",
