@@ -34,11 +34,16 @@ function(add_must_fail name status message)
   set_tests_properties(${test} PROPERTIES LABELS rtl)
 endfunction()
 
-# Line and toggle coverage of all cases by a model of ${unit}_bench that counts it; fails below the threshold.
+# Line and toggle coverage of all cases by a model of ${unit}_bench that counts it; fails below the threshold. Then the
+# bench's options.
 function(add_rtl_coverage model threshold)
   set(test "rtl: ${unit} coverage")
+  set(options ${ARGN})
+  if(NOT options)
+    set(options --tiles 6000 --failure-wave none)
+  endif()
   add_test(NAME ${test}
-           COMMAND ${CMAKE_COMMAND} -DBENCH=$<TARGET_FILE:${unit}_bench> -DMODEL=${model} -DTHRESHOLD=${threshold}
+           COMMAND ${CMAKE_COMMAND} -DBENCH=$<TARGET_FILE:${unit}_bench> -DMODEL=${model} -DTHRESHOLD=${threshold} "-DOPTIONS=${options}"
                    -DVERILATOR_COVERAGE=${VERILATOR_COVERAGE} -P ${PROJECT_SOURCE_DIR}/tb/coverage.cmake)
   set_tests_properties(${test} PROPERTIES LABELS rtl)
 endfunction()

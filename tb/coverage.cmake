@@ -1,8 +1,9 @@
-# Line and toggle coverage of all cases of BENCH together, by a MODEL that counts it; fails below THRESHOLD percent.
+# Line and toggle coverage of all cases of BENCH together, run with OPTIONS, by a MODEL that counts it; fails below
+# THRESHOLD percent.
 set(dir coverage_${MODEL})
 file(REMOVE_RECURSE ${dir})
 file(MAKE_DIRECTORY ${dir})
-execute_process(COMMAND ${BENCH} --model ${MODEL} --tiles 6000 --coverage ${dir}/run.dat --failure-wave none
+execute_process(COMMAND ${BENCH} --model ${MODEL} --coverage ${dir}/run.dat ${OPTIONS}
                 COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 file(GLOB runs ${dir}/*.dat)
 # The annotated sources that verilator_coverage writes count lines; here every point counts, so every bit of a signal.

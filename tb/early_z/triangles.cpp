@@ -38,7 +38,15 @@ ScreenTriangle random_screen_triangle(const Widths& widths, DepthFormat format, 
     v.x = static_cast<std::int32_t>(std::clamp(centre_x + random.range(-reach, reach), -limit, limit));
     v.y = static_cast<std::int32_t>(std::clamp(centre_y + random.range(-reach, reach), -limit, limit));
   }
-  if (random.below(4) == 0) {  // sliver: the third vertex next to the line between the others
+  const std::uint64_t shape = random.below(16);
+  if (shape == 0) {  // half of the guard band, or nearly
+    const std::uint64_t turn = random.bits();
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      const std::uint64_t corner = (turn + i) & 3;
+      triangle.v[i].x = static_cast<std::int32_t>(corner == 1 || corner == 2 ? limit : -limit);
+      triangle.v[i].y = static_cast<std::int32_t>((corner & 2) != 0 ? limit : -limit);
+    }
+  } else if (shape <= 4) {  // sliver: the third vertex next to the line between the others
     triangle.v[2].x =
         (triangle.v[0].x + triangle.v[1].x) / 2 + static_cast<std::int32_t>(random.range(-3, 3));
     triangle.v[2].y =

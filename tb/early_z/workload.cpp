@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_beats.hpp"
@@ -96,6 +97,10 @@ class Maker {
     return vertex_depth_code(format, static_cast<double>(random_.below(1u << 20)) / ((1u << 20) - 1));
   }
 
+  std::uint16_t random_tile() {
+    return static_cast<std::uint16_t>(random_.bits() >> (64 - shape_.widths.TileCoordBits));
+  }
+
   [[nodiscard]] const Surface* surface_of(std::uint32_t line) const {
     const std::uint32_t tile = line / static_cast<std::uint32_t>(parts());
     for (const Surface& surface : surfaces_) {
@@ -156,13 +161,32 @@ class Maker {
                             .func = static_cast<DepthFunc>(random_.below(8)),
                             .format = none ? DepthFormat::kNone : surface.format,
                             .sub_pixel_bits = shape_.widths.SubPixelBits};
-    DrawStatePacket packet{.format = static_cast<std::uint8_t>(state.format),
+    const auto pixel = [&] {
+      return static_cast<std::uint16_t>(random_.bits() >> (64 - shape_.widths.PixelBits));
+    };
+    DrawStatePacket packet{.front_positive_area = static_cast<std::uint8_t>(random_.below(2)),
+                           .cull_front = static_cast<std::uint8_t>(random_.below(2)),
+                           .cull_back = static_cast<std::uint8_t>(random_.below(2)),
+                           .bottom_left_rule = static_cast<std::uint8_t>(random_.below(2)),
+                           .empty = static_cast<std::uint8_t>(random_.below(2)),
+                           .x_first = pixel(),
+                           .x_last = pixel(),
+                           .y_first = pixel(),
+                           .y_last = pixel(),
+                           .format = static_cast<std::uint8_t>(state.format),
                            .test = state.test,
                            .write = state.write,
                            .func = static_cast<std::uint8_t>(state.func),
                            .clear_code = surface.clear_code,
                            .first_tile = surface.place.first_tile,
                            .tiles_x = static_cast<std::uint16_t>(surface.place.tiles_x - 1)};
+    // What touches no depth may be anywhere on the screen, and needs no surface.
+    std::optional<std::array<std::uint16_t, 2>> place;
+    if (!touches_depth(state)) {
+      place = {random_tile(), random_tile()};
+      packet.first_tile = static_cast<std::uint32_t>(random_.bits());
+      packet.tiles_x = random_tile();
+    }
     const int height = local_ ? std::min(surface.height, 2 * shape_.widths.TileSize) : surface.height;
     for (std::uint64_t count = 1 + random_.below(kMostTriangles); count > 0 && left > 0; --count) {
       SetupTriangle triangle = random_triangle(shape_.widths, state.format, surface.width, height, random_);
@@ -180,14 +204,14 @@ class Maker {
       workload_.triangles.push_back(words);
       for (const QuadBurst& burst : bursts) {
         with_tile(shape_.widths.TileSize,
-                  [&](auto size) { add_burst<size()>(triangle, burst, state, surface); });
+                  [&](auto size) { add_burst<size()>(triangle, burst, state, surface, place); });
       }
     }
   }
 
   template <int TileSize>
   void add_burst(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
-                 Surface& surface) {
+                 Surface& surface, const std::optional<std::array<std::uint16_t, 2>>& place) {
     Command& command = workload_.commands.emplace_back();
     command.triangle = workload_.triangles.size() - 1;
     command.state = state;
@@ -217,6 +241,10 @@ class Maker {
     const auto slot = static_cast<std::uint8_t>(command.triangle);
     QuadBurst in_slot = burst;
     in_slot.coverage.slot = slot;
+    if (place) {
+      in_slot.coverage.tile_x = (*place)[0];
+      in_slot.coverage.tile_y = (*place)[1];
+    }
     for (const QuadBeat& beat : quad_beats<TileSize>(in_slot, shape_.widths)) {
       pack(beat, shape_.widths, command.beats.emplace_back(words_for(packed_bits<QuadBeat>(shape_.widths))));
     }
