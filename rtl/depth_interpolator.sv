@@ -145,7 +145,10 @@ module depth_interpolator
   logic [4*Quads-1:0] [CodeBits-1:0] code;
 
   for (genvar q = 0; q < Quads; q++) begin : gen_quad
+    // One clock enable for the four samples of a quad.
+    logic        quad_valid;
     edge_t [1:0] corner;
+    assign quad_valid = valid[0] & has_depth[0] & |mask_i[q];
     for (genvar i = 0; i < 2; i++) begin : gen_corner
       assign corner[i] = at_quad(origin[i], a[i], b[i], index_i[q]);
     end
@@ -153,7 +156,7 @@ module depth_interpolator
       depth_sample u_sample (
         .clk_i         (clk_i),
         .float_i       (is_float),
-        .valid_i       (valid[0] & has_depth[0] & mask_i[q][s]),
+        .valid_i       (quad_valid),
         .corner1_i     (corner[0]),
         .corner2_i     (corner[1]),
         .step1_i       ((s % 2 == 1 ? a[0] : '0) + (s / 2 == 1 ? b[0] : '0)),

@@ -5,7 +5,7 @@
 // float32: the sum of the three E_i z_i, none of which is negative, aligned to the largest; times the reciprocal,
 // rounded to 24 bits and clamped. Both share the first multipliers.
 //
-// Registers are loaded only for a sample that has depth, and only those that its kind of format needs.
+// Registers are loaded only for a quad that has depth, and only those that its kind of format needs.
 
 module depth_sample
   import raster_pkg::*;

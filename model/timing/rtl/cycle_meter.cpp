@@ -38,14 +38,15 @@ void CycleMeter::begins(Stage stage, DrawContext* draw) {
 void CycleMeter::flush(Stage stage, DrawContext* next) {
   const auto i = static_cast<std::size_t>(stage);
   for (std::size_t activity = 0; activity < kActivities; ++activity) {
-    if (since_[i][activity] != 0) {
+    if (counts_[i][activity] != before_[i][activity]) {
       add(i, activity, of_current(stage, activity) ? current_[i] : next);
     }
   }
 }
 
 void CycleMeter::add(std::size_t stage, std::size_t activity, DrawContext* draw) {
-  const std::uint64_t cycles = std::exchange(since_[stage][activity], 0);
+  const std::uint64_t cycles = counts_[stage][activity] - before_[stage][activity];
+  before_[stage][activity] = counts_[stage][activity];
   const auto count = [&](CycleStats& stats) {
     StageCycles& to = stats.stage[stage];
     (activity == 0 ? to.busy : to.stall[activity - 1]) += cycles;

@@ -31,9 +31,11 @@ class CycleMeter {
   /// The activities of a cycle, as activity_o has them.
   void cycle(std::uint32_t activity) {
     for (std::size_t stage = 0; stage < kStages; ++stage) {
-      ++since_[stage][activity >> (stage * kActivityBits) & kActivityMask];
+      ++counts_[stage][activity >> (stage * kActivityBits) & kActivityMask];
     }
   }
+  /// All cycles so far.
+  [[nodiscard]] const ActivityCounts& counts() const { return counts_; }
 
   /// A packet takes a credit of the link in this cycle. One more than there are is a difference.
   void take(Link link, DrawContext* draw, Cycle cycle);
@@ -59,7 +61,8 @@ class CycleMeter {
   std::array<std::size_t, kLinks> capacity_{};
   std::array<LinkMeter, kLinks> links_;
   std::array<std::deque<Held>, kLinks> held_;
-  ActivityCounts since_{};  ///< since the stage's packet has begun
+  ActivityCounts counts_{};
+  ActivityCounts before_{};  ///< before the stage's packet began
   std::array<DrawContext*, kStages> current_{};
   CycleStats frame_;
 };

@@ -34,14 +34,16 @@ class PacketCheck {
   PacketCheck(const char* link, const Widths& widths, PacketReport& report)
       : link_(link), widths_(widths), report_(report), words_(words_for(packed_bits<Packet>(widths))) {}
 
-  /// The next packet of the link: what the model says and what the wires carry.
-  void compare(std::uint64_t cycle, const Packet& model, std::span<const std::uint32_t> wires) {
+  /// The next packet of the link: what the model says and what the wires carry. True where they are the same.
+  bool compare(std::uint64_t cycle, const Packet& model, std::span<const std::uint32_t> wires) {
     pack(model, widths_, words_);
     ++report_.compared;
-    if (!std::ranges::equal(words_, wires.first(words_.size()))) {
+    const bool same = std::ranges::equal(words_, wires.first(words_.size()));
+    if (!same) {
       report_.differ(describe(cycle, wires));
     }
     ++packets_;
+    return same;
   }
 
  private:

@@ -84,6 +84,7 @@ class RtlRun {
         widths_(widths(config)),
         walker_(walker_config(config)),
         meter_(config, report),
+        before_(config, report),
         triangle_check_("setup", widths_, report),
         equation_check_("setup (depth equation)", widths_, report),
         state_check_("setup (draw state)", widths_, report),
@@ -166,7 +167,7 @@ class RtlRun {
     in_.reset = false;
     pipeline_.settle(in_, out_);
     while (!out_.triangle_ready) {
-      count_activity();
+      before_.cycle(out_.activity);
       clock_edge();
       pipeline_.settle(in_, out_);
       if (++rest_ > longest_rest_) {
@@ -184,8 +185,9 @@ class RtlRun {
     ++rest_;
     begin_clear_or_flush();
     begin_packets();
-    count_activity();
     meter_.cycle(out_.activity);
+    busy_reads_ += in_.fill_valid ? 1 : 0;
+    busy_writes_ += out_.write_valid ? 1 : 0;
     if (in_.triangle_valid && out_.triangle_ready) {
       take_triangle();
     }
@@ -219,14 +221,6 @@ class RtlRun {
       throw RtlError(
           fmt::format("an assertion of the RTL failed in cycle {}: see its message above", cycle_));
     }
-  }
-
-  void count_activity() {
-    for (std::size_t stage = 0; stage < kStages; ++stage) {
-      ++activity_[stage][out_.activity >> (stage * kActivityBits) & kActivityMask];
-    }
-    busy_reads_ += in_.fill_valid ? 1 : 0;
-    busy_writes_ += out_.write_valid ? 1 : 0;
   }
 
   [[nodiscard]] bool happens(std::uint32_t event) const { return (out_.events & event) != 0; }
@@ -528,9 +522,10 @@ class RtlRun {
       return;
     }
     const std::span<const std::uint32_t> wires = pipeline_.tested_beat();
-    tested_check_.compare(cycle_, tested_.front(), wires);
-    tested_.pop_front();
-    const auto beat = unpack<TestedBeat>(wires, widths_);
+    TestedBeat& beat = tested_.front();
+    if (!tested_check_.compare(cycle_, beat, wires)) {
+      beat = unpack<TestedBeat>(wires, widths_);
+    }
     const ExpectedBurst& burst = sunk_.front();
     DrawContext& draw = *burst.draw;
     if (!in_burst_) {
@@ -541,18 +536,18 @@ class RtlRun {
       add_quad(beat, i, draw, *burst.triangle);
     }
     in_burst_ = beat.last == 0;
-    if (in_burst_) {
-      return;
+    if (!in_burst_) {
+      if (!to_sink_.empty()) {
+        to_sink_.pop_front();
+      }
+      ++bursts_taken_;
+      meter_.give_back(Link::kEarlyZ, cycle_ + 1);
+      draw.cycles.end = cycle_;
+      draw.has_burst = true;
+      count_pixels(beat, draw, *burst.triangle);
+      sunk_.pop_front();
     }
-    if (!to_sink_.empty()) {
-      to_sink_.pop_front();
-    }
-    ++bursts_taken_;
-    meter_.give_back(Link::kEarlyZ, cycle_ + 1);
-    draw.cycles.end = cycle_;
-    draw.has_burst = true;
-    count_pixels(beat, draw, *burst.triangle);
-    sunk_.pop_front();
+    tested_.pop_front();
   }
 
   /// Quad i of a beat, as the RTL gives it.
@@ -671,19 +666,18 @@ class RtlRun {
       in_.counter_select = static_cast<std::uint32_t>(stage << kActivityBits | activity);
       in_.triangle_valid = in_.clear_valid = in_.flush = in_.fill_valid = false;
       pipeline_.settle(in_, out_);
-      const std::uint64_t want = count;
-      count_activity();
+      meter_.cycle(out_.activity);
       clock_edge();
       pipeline_.settle(in_, out_);
       ++report_.compared;
-      if (out_.counter != want) {
+      if (out_.counter != count) {
         report_.differ(fmt::format("counter {} of stage {}: {} cycles were seen, RTL {}", activity, stage,
-                                   want, out_.counter));
+                                   count, out_.counter));
       }
     };
     for (std::size_t stage = 0; stage < kStages; ++stage) {
       for (std::size_t activity = 0; activity < kActivities; ++activity) {
-        compare(stage, activity, activity_[stage][activity]);
+        compare(stage, activity, before_.counts()[stage][activity] + meter_.counts()[stage][activity]);
       }
     }
     compare(kStages, 0, busy_reads_);
@@ -734,6 +728,7 @@ class RtlRun {
   Widths widths_;
   WalkerConfig walker_;
   CycleMeter meter_;
+  CycleMeter before_;  ///< of the cycles between reset and cycle 0
   PacketCheck<SetupTrianglePacket> triangle_check_;
   PacketCheck<DepthEquationPacket> equation_check_;
   PacketCheck<DrawStatePacket> state_check_;
@@ -800,7 +795,6 @@ class RtlRun {
   bool in_write_ = false;
 
   // Since reset.
-  ActivityCounts activity_{};
   std::uint64_t busy_reads_ = 0;
   std::uint64_t busy_writes_ = 0;
 };
