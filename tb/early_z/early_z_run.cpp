@@ -49,6 +49,19 @@ class Run {
     in_.state.resize(words_for(packed_bits<DrawStatePacket>(shape.widths)));
     in_.beat.resize(words_for(packed_bits<QuadBeat>(shape.widths)));
     in_.fill.resize(words_for(8 * std::min(shape.read_bytes, shape.line_bytes())));
+    for (const Command& command : workload.commands) {
+      for (const ZMiss& miss : command.misses.parts()) {
+        if (miss.fetch) {
+          lines_read_.push_back(miss.line);
+        }
+        if (miss.write_back) {
+          lines_written_.push_back(miss.victim);
+        }
+      }
+      for (const FlushedLine& flushed : command.flushed) {
+        lines_written_.push_back(flushed.line);
+      }
+    }
   }
 
   ZRunResult run() {
@@ -93,6 +106,7 @@ class Run {
     offered_ = waits_done_ = false;
     fill_free_ = quiet_ = idle_cycles_ = 0;
     write_bytes_.clear();
+    lines_done_ = 0;
     cycle_ = 0;
     while (!failure_ && quiet_ < kDrainCycles && (cut == 0 || cycle_ < cut)) {
       step();
@@ -273,6 +287,9 @@ class Run {
       return;
     }
     idle_cycles_ = 0;
+    if (!is_next("request for", out_.read_line, log_.requests.size(), lines_read_)) {
+      return;
+    }
     log_.requests.push_back({cycle_, out_.read_line});
     const std::vector<std::uint8_t>& line = memory_.at(out_.read_line);
     if (line.empty() || out_.read_half != (line.size() != static_cast<std::size_t>(shape_.line_bytes()))) {
@@ -297,6 +314,9 @@ class Run {
       return;
     }
     idle_cycles_ = 0;
+    if (!is_next("write of", out_.write_line, lines_done_, lines_written_)) {
+      return;
+    }
     log_.writes.push_back({cycle_, out_.write_line, out_.write_last});
     std::vector<std::uint8_t>& line = memory_.at(out_.write_line);
     const auto width = static_cast<std::size_t>(shape_.write_bytes);
@@ -314,7 +334,20 @@ class Run {
     if (out_.write_last) {
       line.swap(write_bytes_);
       write_bytes_.clear();
+      ++lines_done_;
     }
+  }
+
+  /// Whether memory is asked for what the cache of the model asks for next, whenever that is.
+  bool is_next(const char* what, std::uint32_t line, std::size_t number,
+               const std::vector<std::uint32_t>& expected) {
+    if (number >= expected.size()) {
+      fail({FailureKind::kExtra, cycle_, fmt::format("{} line {} that nobody needs", what, line)});
+    } else if (line != expected[number]) {
+      fail({FailureKind::kPayload, cycle_,
+            fmt::format("{} line {}, not {}, as number {}", what, line, expected[number], number)});
+    }
+    return number < expected.size() && line == expected[number];
   }
 
   void compare_memory() {
@@ -413,7 +446,10 @@ class Run {
   std::deque<Fill> fills_;
   std::uint64_t fill_free_ = 0;  ///< first cycle in which the read channel is free
   std::uint64_t fill_beats_ = 0;
-  std::vector<std::uint8_t> write_bytes_;  ///< of the line that is written
+  std::vector<std::uint32_t> lines_read_;     ///< in the order in which the model's cache asks for them
+  std::vector<std::uint32_t> lines_written_;  ///< likewise
+  std::size_t lines_done_ = 0;                ///< of them
+  std::vector<std::uint8_t> write_bytes_;     ///< of the line that is written
   std::uint64_t write_beats_ = 0;
   std::size_t command_ = 0;
   std::size_t beat_ = 0;

@@ -51,6 +51,11 @@ ScreenTriangle random_screen_triangle(const Widths& widths, DepthFormat format, 
         (triangle.v[0].x + triangle.v[1].x) / 2 + static_cast<std::int32_t>(random.range(-3, 3));
     triangle.v[2].y =
         (triangle.v[0].y + triangle.v[1].y) / 2 + static_cast<std::int32_t>(random.range(-3, 3));
+  } else if (shape <= 6) {  // vertices on pixel centres, so that samples have the depth of a vertex
+    for (ScreenVertex& v : triangle.v) {
+      v.x = static_cast<std::int32_t>((v.x & -one) + one / 2);
+      v.y = static_cast<std::int32_t>((v.y & -one) + one / 2);
+    }
   }
   const double depth = random_depth(random);
   const bool flat = random.below(4) == 0;
