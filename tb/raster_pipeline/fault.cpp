@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "halfspace/timing/rtl/pipeline_decorator.hpp"
+
 namespace halfspace::tb {
 namespace {
 
@@ -29,16 +31,16 @@ constexpr std::array<std::pair<const char*, PipelineFault>, 16> kNames{{
 }};
 
 /// What passes counts; the fault happens once, when as many as `at` have passed.
-class FaultyPipeline final : public VerilatedPipeline {
+class FaultyPipeline final : public PipelineDecorator {
  public:
   FaultyPipeline(std::unique_ptr<VerilatedPipeline> pipeline, PipelineFault fault, std::uint64_t at)
-      : pipeline_(std::move(pipeline)), fault_(fault), left_(at) {}
+      : PipelineDecorator(std::move(pipeline)), fault_(fault), left_(at) {}
 
   void settle(const PipelineInputs& in, PipelineOutputs& out) override {
     in_ = in;
     here_ = false;
     if (in.reset) {  // before it registers hold anything
-      pipeline_->settle(in, out);
+      pipeline().settle(in, out);
       return;
     }
     if (in.fill_valid && fault_ == PipelineFault::kFlipFill && due()) {
@@ -47,7 +49,7 @@ class FaultyPipeline final : public VerilatedPipeline {
     if (in.fill_valid && fault_ == PipelineFault::kLoseFill && due()) {
       in_.fill_valid = false;
     }
-    pipeline_->settle(in_, out);
+    pipeline().settle(in_, out);
     const std::uint32_t event = event_of_fault();
     here_ = event != 0 && (out.events & event) != 0 && due();
     switch (fault_) {
@@ -61,7 +63,7 @@ class FaultyPipeline final : public VerilatedPipeline {
         if (in.triangle_valid && out.triangle_ready && due()) {
           in_.triangle_valid = false;  // the driver thinks that it was taken
           PipelineOutputs same;
-          pipeline_->settle(in_, same);
+          pipeline().settle(in_, same);
         }
         break;
       case PipelineFault::kDropTested:
@@ -70,7 +72,7 @@ class FaultyPipeline final : public VerilatedPipeline {
       case PipelineFault::kLateTested:
         if (out.beat_valid && in.beat_ready && due()) {
           in_.beat_ready = false;
-          pipeline_->settle(in_, out);
+          pipeline().settle(in_, out);
           out.beat_valid = false;
         }
         break;
@@ -84,37 +86,32 @@ class FaultyPipeline final : public VerilatedPipeline {
         break;
     }
   }
-  void clock_edge() override { pipeline_->clock_edge(); }
-  [[nodiscard]] bool clear_done() const override { return pipeline_->clear_done(); }
-  [[nodiscard]] bool flush_done() const override { return pipeline_->flush_done(); }
 
   [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {
-    return payload(pipeline_->setup_triangle(), PipelineFault::kFlipTriangle);
+    return payload(pipeline().setup_triangle(), PipelineFault::kFlipTriangle);
   }
   [[nodiscard]] std::span<const std::uint32_t> depth_equation() const override {
-    return payload(pipeline_->depth_equation(), PipelineFault::kFlipEquation);
+    return payload(pipeline().depth_equation(), PipelineFault::kFlipEquation);
   }
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
-    return payload(pipeline_->draw_state(), PipelineFault::kFlipState);
+    return payload(pipeline().draw_state(), PipelineFault::kFlipState);
   }
   [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
-    return payload(pipeline_->tile_job(), PipelineFault::kFlipJob);
+    return payload(pipeline().tile_job(), PipelineFault::kFlipJob);
   }
   [[nodiscard]] std::span<const std::uint32_t> coverage() const override {
-    return payload(pipeline_->coverage(), PipelineFault::kFlipCoverage);
+    return payload(pipeline().coverage(), PipelineFault::kFlipCoverage);
   }
   [[nodiscard]] std::span<const std::uint32_t> quad_beat() const override {
-    return payload(pipeline_->quad_beat(), PipelineFault::kFlipBeat);
+    return payload(pipeline().quad_beat(), PipelineFault::kFlipBeat);
   }
   [[nodiscard]] std::span<const std::uint32_t> tested_beat() const override {
-    return payload(pipeline_->tested_beat(), PipelineFault::kFlipTested);
+    return payload(pipeline().tested_beat(), PipelineFault::kFlipTested);
   }
   void write_data(std::vector<std::uint32_t>& words) const override {
-    pipeline_->write_data(words);
+    pipeline().write_data(words);
     words[0] ^= here_ && fault_ == PipelineFault::kFlipWrite ? 1u : 0u;
   }
-  [[nodiscard]] bool assertion_failed() const override { return pipeline_->assertion_failed(); }
-  void trace_to(const std::filesystem::path& file) override { pipeline_->trace_to(file); }
 
  private:
   /// Called once for each that passes.
@@ -147,7 +144,6 @@ class FaultyPipeline final : public VerilatedPipeline {
     return flipped_;
   }
 
-  std::unique_ptr<VerilatedPipeline> pipeline_;
   PipelineFault fault_;
   std::uint64_t left_;
   bool here_ = false;  ///< in this cycle
