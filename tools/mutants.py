@@ -3,6 +3,7 @@
 Every kind of change is a function over the source's text that yields places; none knows a module.
 """
 
+import functools
 import pathlib
 import re
 import tomllib
@@ -54,7 +55,17 @@ CREDIT_NAME = r"credit|free|reserve|pop\b|push|room|fetch|taken|waiting|used|lef
 CREDIT_PORT = re.compile(r"\.(?:reserve|push|pop|take|free|release|credit)\w*_i\s*\(([^()\n]+)\)")
 STEP = re.compile(r"([\w.]+(?:\[[^][]*\])?)\s*[-+]\s*\w+'\(1\)(?=\s*[;:)])")
 # What no unit's bench looks at, but the pipeline's does: what a cycle is spent on, whether work is left.
-ACTIVITY = re.compile(r"\b\w*activity\w*\b|\b\w*idle_o\b|\bempty_o\b|\b\w+_empty\b|\bclears_idle\b")
+ACTIVITY = re.compile(r"\b\w*activity\w*\b|\b\w*idle_o\b|\bempty_o\b|\b\w+_empty\b")
+
+
+class Sources:
+    """Where the RTL is read; a build folder's commands name RTL."""
+
+    folder = RTL
+
+
+def text_of(name):
+    return (Sources.folder / f"{name}.sv").read_text()
 
 
 @dataclass(frozen=True)
@@ -131,7 +142,7 @@ def operators(code):
             yield *match.span(), BORDER[operator], "off by one"
 
 
-def constants(code):
+def constants(code, yes_or_no):
     for match in NUMBER.finditer(code):
         value = int(match.group())
         for other in {value + 1, max(value - 1, 0)} - {value}:
@@ -140,6 +151,8 @@ def constants(code):
         value = int(match.group(2)) ^ 1
         yield *match.span(), f"{match.group(1)}'d{value}", "constant"
     for match in PARAMETER.finditer(code):
+        if match.group() in yes_or_no:
+            continue
         yield *match.span(), f"({match.group()} - 1)", "off by one"
         yield *match.span(), f"({match.group()} + 1)", "off by one"
     for match in BIT.finditer(code):
@@ -191,19 +204,26 @@ def widths(code):
 
 def mutants_of(name):
     """All mutants of a module, in the order of its text."""
-    text = (RTL / f"{name}.sv").read_text()
+    text = text_of(name)
     statements = statements_only(text)
     code = expressions_only(statements)
+    yes_or_no = set(re.findall(r"param(?:eter)?\s+bit\s+(\w+)", text))
     found = {
         Mutant(name, *change)
-        for changes in (operators(code), constants(code), dropped(code), swapped(code), widths(statements))
+        for changes in (
+            operators(code),
+            constants(code, yes_or_no),
+            dropped(code),
+            swapped(code),
+            widths(statements),
+        )
         for change in changes
     }
     return sorted(found, key=lambda m: (m.start, m.end, m.text))
 
 
 def change_of(mutant):
-    text = (RTL / f"{mutant.file}.sv").read_text()
+    text = text_of(mutant.file)
     first = text.rfind("\n", 0, mutant.start) + 1
     last = text.find("\n", mutant.end)
     after = text[first : mutant.start] + mutant.text + text[mutant.end : last]
@@ -211,14 +231,32 @@ def change_of(mutant):
     return Change(line, *(" ".join(part.split()) for part in (text[first:last], after)))
 
 
+@functools.cache
+def activity_of(name):
+    """What finds the lines of a module that only the pipeline's bench looks at, in its statements."""
+    code = statements_only(text_of(name))
+    signals = []
+    for match in re.finditer(r"^ *assign (\w+) +=[^;]*;", code, re.M):
+        signal = rf"\b{match.group(1)}\b"
+        rest = blank(code[: match.start()], r"^ *logic\b[^;]*;", re.M) + code[match.end() :]
+        uses = [lines_at(rest, use.start(), use.end()) for use in re.finditer(signal, rest)]
+        if uses and all(ACTIVITY.search(use) for use in uses):
+            signals.append(signal)
+    return code, re.compile("|".join([ACTIVITY.pattern, *signals]))
+
+
+def lines_at(code, start, end):
+    """The assignment that holds these positions, or else their lines."""
+    statement = statement_at(code, start)
+    if statement.lstrip().startswith("assign"):
+        return statement
+    return code[code.rfind("\n", 0, start) + 1 : code.find("\n", end)]
+
+
 def is_activity(mutant):
     """Whether the mutant is of what only the pipeline's bench looks at."""
-    code = statements_only((RTL / f"{mutant.file}.sv").read_text())
-    statement = statement_at(code, mutant.start)
-    if not statement.lstrip().startswith("assign"):
-        first = code.rfind("\n", 0, mutant.start) + 1
-        statement = code[first : code.find("\n", mutant.end)]
-    return bool(ACTIVITY.search(statement))
+    code, pattern = activity_of(mutant.file)
+    return bool(pattern.search(lines_at(code, mutant.start, mutant.end)))
 
 
 def write_mutant(mutant, folder):
@@ -243,7 +281,7 @@ class Equivalents:
     def stale(self):
         """Entries that are not the text of exactly one place any more."""
         for file, before, after in self.reasons:
-            source = RTL / f"{file}.sv"
+            source = Sources.folder / f"{file}.sv"
             places = set()
             if source.exists():
                 changes = (change_of(m) for m in mutants_of(file))

@@ -23,16 +23,16 @@ from collections import Counter
 from datetime import date
 
 from mutant_bench import PipelineBench, Stillborn, UnitBench, find, models_of, show
-from mutants import ROOT, Equivalents, change_of, is_activity, mutants_of
+from mutants import ROOT, RTL, Equivalents, Sources, change_of, is_activity, mutants_of
 
 # Of each unit the models that a mutant must survive, and the options of a short run of all cases.
 DEFAULTS = {
     "setup": (["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
-    "tile_walker": (["t8_b32", "t4_b64", "t16_b32_noblocks"], ["--tiles", "40000"]),
+    "tile_walker": (["t8_b32", "t4_b64", "t16_b32_noblocks", "t4_b8_noreject"], ["--tiles", "40000"]),
     "quad_generator": (["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": (["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
-    "early_z": (["t4", "parts"], ["--bursts", "16000"]),
-    "raster_pipeline": (["small_no_dfg"], ["--triangles", "6000"]),
+    "early_z": (["t4", "parts"], ["--bursts", "32000"]),
+    "raster_pipeline": (["small_no_dfg"], ["--triangles", "20000"]),
 }
 SURVIVED = "**survived**"
 HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
@@ -126,15 +126,17 @@ def main():
     parser.add_argument("--file", action="append", help="only of this module, repeatable")
     parser.add_argument("--model", action="append", help="to run, repeatable (default: by unit)")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--rtl", type=pathlib.Path, default=RTL, help="another copy of the sources")
     parser.add_argument("--limit", type=float, default=120, help="seconds for a run (default 120)")
     parser.add_argument("--page", type=pathlib.Path, help="Markdown file whose part of the unit is written")
     parser.add_argument(
-        "--keep", action="store_true", help="do not run again what the page says was found, where the text is the same"
+        "--keep", action="store_true", help="do not run again what the page has as found, by place and text"
     )
     parser.add_argument("--list", action="store_true", help="list the mutants, run nothing")
     parser.epilog = "What follows -- are options of the bench."
     options = parser.parse_args(own)
 
+    Sources.folder = options.rtl.resolve()
     build = options.build.resolve()
     bench = PipelineBench(build) if options.unit == "raster_pipeline" else UnitBench(options.unit, build)
     names, default_arguments = DEFAULTS[options.unit]
