@@ -147,7 +147,7 @@ class PipelineBench:
             kind = "counter"
         elif "against recurrence" in words:
             kind = "timing"
-        elif "differences, first" in words:
+        elif "differences, first" in words or "in no surface" in words:
             kind = "packet"
         else:
             kind = f"exit status {done.returncode}"
