@@ -1,5 +1,5 @@
-// A memory with one write port and one registered read port: reads what was written before this cycle. A word is never
-// read in the cycle in which it is written, because memories differ in what that gives.
+// A memory with one write port and one registered read port: reads what was written before this cycle. Its user never
+// reads a word in the cycle in which it is written, because memories differ in what that gives.
 
 module sync_ram #(
   /// Bits of a word.
@@ -32,11 +32,5 @@ module sync_ram #(
   end
 
   assign data_o = data_q;
-
-`ifndef SYNTHESIS
-  NoReadOfWhatIsWritten: assert property (@(posedge clk_i)
-      read_i && write_i |-> read_address_i != write_address_i)
-  else $error("a word is read in the cycle in which it is written");
-`endif
 
 endmodule
