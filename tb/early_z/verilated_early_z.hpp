@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "early_z/dut.hpp"
 #include "common/ports.hpp"
+#include "early_z/dut.hpp"
 
 namespace halfspace::tb {
 
