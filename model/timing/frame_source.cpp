@@ -32,11 +32,11 @@ void FrameSource::begin(std::uint32_t command) {
   next_in_batch_ = 0;
   front_end_.reset();
   fast_clear_.reset();
-  const Command& todo = frame_.commands[command];
-  if (todo.kind == CommandKind::kClear) {
-    begin_clear(todo);
+  const Command& begun = frame_.commands[command];
+  if (begun.kind == CommandKind::kClear) {
+    begin_clear(begun);
   } else {
-    begin_draw(todo, command);
+    begin_draw(begun, command);
   }
 }
 
