@@ -1,5 +1,5 @@
 // Depth at one sample by barycentric weights, in eight stages: the stored code of a unorm16, unorm24 or float32
-// surface, bit for bit that of model/units/depth_interpolator.hpp. Seven registers; the last stage is wires.
+// surface, bit for bit that of model/halfspace/units/depth_interpolator.hpp. Seven registers; the last stage is wires.
 //
 // unorm: z0 + w1 (z1 - z0) + w2 (z2 - z0), w_i = E_i / 2A by the reciprocal of 2A, rounded and clamped.
 // float32: the sum of the three E_i z_i, none of which is negative, aligned to the largest; times the reciprocal,

@@ -1,7 +1,7 @@
 // Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp,
-// model/units/link_packets.hpp and model/timing/cycle_stats.hpp: change those and print this file
+// Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
+// model/halfspace/units/link_packets.hpp and model/halfspace/timing/cycle_stats.hpp: change those and print this file
 // again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
 // -DHALFSPACE_TILE_SIZE=4|8|16

@@ -1,4 +1,4 @@
-/// Bench of depth_interpolator, one quad wide: the RTL against model/units/depth_interpolator.hpp, sample by
+/// Bench of depth_interpolator, one quad wide: the RTL against model/halfspace/units/depth_interpolator.hpp, sample by
 /// sample, a quad a cycle.
 #include <fmt/format.h>
 #include <verilated.h>

@@ -1,4 +1,4 @@
-/// Bench of edge_evaluator: the RTL against model/units/edge_evaluator.hpp.
+/// Bench of edge_evaluator: the RTL against model/halfspace/units/edge_evaluator.hpp.
 #include <fmt/format.h>
 
 #include <algorithm>

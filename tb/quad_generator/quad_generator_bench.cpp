@@ -1,4 +1,4 @@
-/// Bench of quad_generator: the RTL against model/units/quad_generator.hpp.
+/// Bench of quad_generator: the RTL against model/halfspace/units/quad_generator.hpp.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ module raster_pipeline_probe
   input quad_beat_t      quad_beat_i
 );
 
-  // In the order of halfspace::rtl::event (model/timing/rtl/verilated_pipeline.hpp).
+  // In the order of halfspace::rtl::event (model/halfspace/timing/rtl/verilated_pipeline.hpp).
   logic [12:0] events  /*verilator public_flat_rd*/;
   assign events = {
     writes_i, test_last_i, test_first_i, last_beat_i & beat_i, first_beat_i & beat_i, beat_i,

@@ -1,4 +1,4 @@
-/// Bench of setup: the RTL against model/units/setup.hpp.
+/// Bench of setup: the RTL against model/halfspace/units/setup.hpp.
 #include <fmt/format.h>
 
 #include <map>

@@ -69,7 +69,7 @@ struct InputWords {
   [[nodiscard]] std::size_t all() const { return triangle + equation + state; }
 };
 
-/// The walk of a triangle packet, by model/units/tile_walker.hpp.
+/// The walk of a triangle packet, by model/halfspace/units/tile_walker.hpp.
 [[nodiscard]] Walk reference_walk(std::span<const std::uint32_t> triangle, std::uint8_t slot,
                                   const WalkerParameters& parameters);
 

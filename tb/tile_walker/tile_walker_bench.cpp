@@ -1,4 +1,4 @@
-/// Bench of tile_walker: the RTL against model/units/tile_walker.hpp.
+/// Bench of tile_walker: the RTL against model/halfspace/units/tile_walker.hpp.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -138,8 +138,8 @@ std::string raster_pkg() {
   std::string text =
       R"(// Widths and packets of the links between the units, for every configuration.
 //
-// Printed by the target print_raster_pkg from model/numerics/widths.hpp, model/units/packets.hpp,
-// model/units/link_packets.hpp and model/timing/cycle_stats.hpp: change those and print this file
+// Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
+// model/halfspace/units/link_packets.hpp and model/halfspace/timing/cycle_stats.hpp: change those and print this file
 // again. A configuration is chosen by defines:
 )";
   for (const Parameter& parameter : kParameters) {
