@@ -108,7 +108,7 @@ module edge_evaluator_tb;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
     void'($urandom(seed));
     board = new();
-    board.set($sformatf("walker.tile_size=%0d", TileSize));
+    board.set($sformatf("tile_walker.tile_size=%0d", TileSize));
     board.set($sformatf("raster.sub_pixel_bits=%0d", SubPixelBits));
     board.watch(LinkCoverage, $bits(coverage_t));
 

@@ -29,7 +29,7 @@ TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
   CHECK(!stats["frame"].contains("time"));
   CHECK(!stats["draws"][0].contains("time"));
   CHECK(stats["frame"]["counters"]["quad_generator"]["fragments"] == 74783);
-  CHECK(stats["config"]["walker.tile_size"] == "8");
+  CHECK(stats["config"]["tile_walker.tile_size"] == "8");
 
   const halfspace::NpyArray depth = halfspace::read_npy(out / "depth0.npy");
   CHECK(depth.descr == "'<f4'");
@@ -84,7 +84,7 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
   const std::string diff = "diff " + place.path.string() + "/a " + place.path.string() + "/b";
   CHECK(place.run(diff).status == 0);
   SECTION("another machine walks otherwise and draws the same") {
-    REQUIRE(place.run(run + "/b --set walker.tile_size=16").status == 0);
+    REQUIRE(place.run(run + "/b --set tile_walker.tile_size=16").status == 0);
     const Outcome outcome = place.run(diff);
     CHECK(outcome.status == 1);
     CHECK(outcome.out.find("tiles.npy: ") != std::string::npos);
@@ -150,14 +150,14 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
 TEST_CASE("errors are one line that names the thing, its value and what is legal") {
   const Place place;
   const std::string cube = scene("vkcube.ptf.xz");
-  check_error(place.run("run " + cube + " --set walker.tile_size=5"),
-              {"walker.tile_size", "'5'", "4, 8, 16"});
-  check_error(place.run("run " + cube + " --set walker.tile_sise=8"),
-              {"unknown", "walker.tile_sise", "walker.tile_size"});
+  check_error(place.run("run " + cube + " --set tile_walker.tile_size=5"),
+              {"tile_walker.tile_size", "'5'", "4, 8, 16"});
+  check_error(place.run("run " + cube + " --set tile_walker.tile_sise=8"),
+              {"unknown", "tile_walker.tile_sise", "tile_walker.tile_size"});
   check_error(place.run("run " + cube + " --set raster.sub_pixel_bits=9"),
               {"raster.sub_pixel_bits", "'9'", "4 to 8"});
-  check_error(place.run("run " + cube + " --set walker.tile_size=16 --set walker.block_size=16"),
-              {"walker.block_size", "16"});
+  check_error(place.run("run " + cube + " --set tile_walker.tile_size=16 --set tile_walker.block_size=16"),
+              {"tile_walker.block_size", "16"});
   check_error(place.run("run " + cube + " --set late_z"), {"late_z", "KEY=VALUE"});
   check_error(place.run("run " + cube + " --fidelity guess"), {"guess", "functional", "rtl"});
   check_error(place.run("run " + cube + " --quads"), {"--quads", "--out"});
@@ -191,10 +191,10 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   check_error(place.run("run " + cube + " --size 10"), {"--size", "'10'", "16384"});
   check_error(place.run("run"), {"INPUT"});
   check_error(place.run("nonsense"), {"nonsense"});
-  std::ofstream(place.path / "bad.toml") << "[walker]\ntile_size = \"large\"\n";
+  std::ofstream(place.path / "bad.toml") << "[tile_walker]\ntile_size = \"large\"\n";
   check_error(place.run("config --config " + (place.path / "bad.toml").string()),
-              {"bad.toml", "walker.tile_size", "'large'"});
-  std::ofstream(place.path / "worse.toml") << "[walker\n";
+              {"bad.toml", "tile_walker.tile_size", "'large'"});
+  std::ofstream(place.path / "worse.toml") << "[tile_walker\n";
   check_error(place.run("config --config " + (place.path / "worse.toml").string()), {"worse.toml", "line 1"});
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("timeline: slices of a track do not overlap, and add up to the stats o
   for (const char* options :
        {"", "--stall source:20:30 --stall quad_generator:20:9 --stall sink:30:20 --seed 3",
         "--set z_cache.fast_clear=false",
-        "--set z_cache.lines=4 --set z_cache.ways=2 --set z_cache.parts=2 --set walker.tile_size=4",
+        "--set z_cache.lines=4 --set z_cache.ways=2 --set z_cache.parts=2 --set tile_walker.tile_size=4",
         "--set z_cache.write_buffers=1 --set memory.write_bytes=1 --set early_z.quads_per_cycle=1"}) {
     CAPTURE(options);
     const Place place;

@@ -182,8 +182,9 @@ TEST_CASE("the image depends neither on vertex order, nor on draw order, tile si
   }
   SECTION("any machine") {
     for (const char* setting :
-         {"walker.tile_size=4", "walker.tile_size=16", "walker.block_size=16", "walker.block_size=64",
-          "walker.block_level=false", "walker.trivial_reject=false", "walker.trivial_accept=false"}) {
+         {"tile_walker.tile_size=4", "tile_walker.tile_size=16", "tile_walker.block_size=16",
+          "tile_walker.block_size=64", "tile_walker.block_level=false", "tile_walker.trivial_reject=false",
+          "tile_walker.trivial_accept=false"}) {
       CAPTURE(setting);
       Config config;
       set_config(config, setting);

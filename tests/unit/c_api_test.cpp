@@ -55,10 +55,10 @@ Model make_model(const Machine& machine, std::initializer_list<int> links) {
   const Widths& w = machine.widths;
   for (const std::string& setting :
        {fmt::format("raster.sub_pixel_bits={}", w.SubPixelBits),
-        fmt::format("walker.tile_size={}", w.TileSize),
+        fmt::format("tile_walker.tile_size={}", w.TileSize),
         fmt::format("quad_generator.quads_per_cycle={}", w.QuadWidth),
         fmt::format("early_z.quads_per_cycle={}", w.TestWidth), fmt::format("z_cache.parts={}", w.ZParts),
-        fmt::format("walker.block_level={}", machine.block_level)}) {
+        fmt::format("tile_walker.block_level={}", machine.block_level)}) {
     REQUIRE(halfspace_set(model.get(), setting.c_str()) == HALFSPACE_OK);
   }
   for (const int link : links) {
@@ -490,11 +490,11 @@ TEST_CASE("c_api: reset forgets packets, bursts and slots, and keeps surfaces") 
 
 TEST_CASE("c_api: configuration by text, file and assignment; fixed by the first other call") {
   const Model model(halfspace_create());
-  REQUIRE(halfspace_configure(model.get(), "[walker]\ntile_size = 4\n") == HALFSPACE_OK);
+  REQUIRE(halfspace_configure(model.get(), "[tile_walker]\ntile_size = 4\n") == HALFSPACE_OK);
   REQUIRE(halfspace_set(model.get(), "raster.sub_pixel_bits=5") == HALFSPACE_OK);
   CHECK(halfspace_packet_bits(model.get(), HALFSPACE_COVERAGE) ==
         packed_bits<Coverage>(Widths{.SubPixelBits = 5, .TileSize = 4}));
-  CHECK(halfspace_set(model.get(), "walker.tile_size=8") == HALFSPACE_REFUSED);
+  CHECK(halfspace_set(model.get(), "tile_walker.tile_size=8") == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("the configuration is fixed"));
   CHECK(halfspace_configure(model.get(), "") == HALFSPACE_REFUSED);
   CHECK(halfspace_configure_file(model.get(), "machine.toml") == HALFSPACE_REFUSED);
@@ -507,22 +507,22 @@ TEST_CASE("c_api: configuration by text, file and assignment; fixed by the first
 
 TEST_CASE("c_api: an illegal configuration is refused with what is legal") {
   const Model model(halfspace_create());
-  CHECK(halfspace_set(model.get(), "walker.tile_size=7") == HALFSPACE_REFUSED);
-  CHECK(error(model) == "configuration key 'walker.tile_size' is '7'; legal: 4, 8, 16");
-  CHECK(halfspace_set(model.get(), "walker.tilesize=8") == HALFSPACE_REFUSED);
-  CHECK_THAT(error(model), Catch::Contains("unknown configuration key 'walker.tilesize'"));
+  CHECK(halfspace_set(model.get(), "tile_walker.tile_size=7") == HALFSPACE_REFUSED);
+  CHECK(error(model) == "configuration key 'tile_walker.tile_size' is '7'; legal: 4, 8, 16");
+  CHECK(halfspace_set(model.get(), "tile_walker.tilesize=8") == HALFSPACE_REFUSED);
+  CHECK_THAT(error(model), Catch::Contains("unknown configuration key 'tile_walker.tilesize'"));
   CHECK(halfspace_set(model.get(), "a\nb") == HALFSPACE_REFUSED);
   CHECK(error(model).find('\n') == std::string::npos);
-  CHECK(halfspace_configure(model.get(), "[walker\n") == HALFSPACE_REFUSED);
+  CHECK(halfspace_configure(model.get(), "[tile_walker\n") == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("configuration: line 1"));
   CHECK(halfspace_configure_file(model.get(), "no/such/file.toml") == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("no/such/file.toml"));
   // What only fits together is checked when the configuration is first used; until it fits, it can be
   // changed.
-  REQUIRE(halfspace_set(model.get(), "walker.block_size=8") == HALFSPACE_OK);
+  REQUIRE(halfspace_set(model.get(), "tile_walker.block_size=8") == HALFSPACE_OK);
   CHECK(halfspace_packet_bits(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_REFUSED);
-  CHECK_THAT(error(model), Catch::Contains("'walker.block_size' is 8"));
-  REQUIRE(halfspace_set(model.get(), "walker.block_size=16") == HALFSPACE_OK);
+  CHECK_THAT(error(model), Catch::Contains("'tile_walker.block_size' is 8"));
+  REQUIRE(halfspace_set(model.get(), "tile_walker.block_size=16") == HALFSPACE_OK);
   REQUIRE(halfspace_set(model.get(), "depth.interpolator=plane") == HALFSPACE_OK);
   CHECK(halfspace_watch(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("'depth.interpolator' is 'plane'; legal here: barycentric"));

@@ -59,10 +59,10 @@ TEST_CASE("config: a capacity of 0, a width of 0, a size that is no power of two
   CHECK(error_of({"quad_generator.quads_per_cycle=0"}) ==
         "configuration key 'quad_generator.quads_per_cycle' is '0'; legal: 1, 2, 4, 8, 16");
   CHECK(error_of({"memory.read_bytes=0"}).find("legal: 1, 2, 4, 8,") != std::string::npos);
-  for (const char* power :
-       {"walker.tile_size=12", "walker.block_size=24", "setup.interval=3", "quad_generator.quads_per_cycle=3",
-        "early_z.quads_per_cycle=6", "z_cache.lines=100", "z_cache.ways=3", "z_cache.parts=3",
-        "z_cache.clear_tiles=48", "memory.read_bytes=48", "memory.write_bytes=96"}) {
+  for (const char* power : {"tile_walker.tile_size=12", "tile_walker.block_size=24", "setup.interval=3",
+                            "quad_generator.quads_per_cycle=3", "early_z.quads_per_cycle=6",
+                            "z_cache.lines=100", "z_cache.ways=3", "z_cache.parts=3",
+                            "z_cache.clear_tiles=48", "memory.read_bytes=48", "memory.write_bytes=96"}) {
     CAPTURE(power);
     const std::string setting(power);
     const std::string key = setting.substr(0, setting.find('='));
@@ -73,7 +73,7 @@ TEST_CASE("config: a capacity of 0, a width of 0, a size that is no power of two
 
 TEST_CASE("config: an unknown key is answered with those that exist") {
   for (const char* setting :
-       {"walker.tile_sise=8", "tile_size=8", "walker=8", "=8", "walker.tile_size.x=8"}) {
+       {"tile_walker.tile_sise=8", "tile_size=8", "walker=8", "=8", "tile_walker.tile_size.x=8"}) {
     const std::string error = error_of({setting});
     CAPTURE(setting, error);
     const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
@@ -82,20 +82,35 @@ TEST_CASE("config: an unknown key is answered with those that exist") {
       CHECK(error.find(each.name) != std::string::npos);
     }
   }
-  CHECK(error_of({"walker.tile_size"}) == "'walker.tile_size' is not a setting; it must read KEY=VALUE");
+  CHECK(error_of({"tile_walker.tile_size"}) ==
+        "'tile_walker.tile_size' is not a setting; it must read KEY=VALUE");
+}
+
+TEST_CASE("config: a key of a section that was renamed is refused with its new name") {
+  for (const ConfigKey& key : config_keys({})) {
+    if (key.name.starts_with("tile_walker.")) {
+      const std::string old = key.name.substr(std::string("tile_").size());
+      Config config;
+      CHECK_THROWS_WITH(set_config(config, old, key.value),
+                        "unknown configuration key '" + old + "'; it is '" + key.name + "' now");
+    }
+  }
+  CHECK(error_of({"walker.fofo=3"}).starts_with("unknown configuration key 'walker.fofo'; legal: "));
+  CHECK_THROWS_WITH(parse_config("[walker]\nfifo = 3\n", "old.toml"),
+                    "old.toml: unknown configuration key 'walker.fifo'; it is 'tile_walker.fifo' now");
 }
 
 TEST_CASE("config: keys that must fit each other") {
-  CHECK(error_of({"walker.block_size=8"}) ==
-        "configuration key 'walker.block_size' is 8; legal: larger than 'walker.tile_size' (8)");
-  CHECK(error_of({"walker.tile_size=16", "walker.block_size=16"}) ==
-        "configuration key 'walker.block_size' is 16; legal: larger than 'walker.tile_size' (16)");
-  CHECK(error_of({"walker.tile_size=4", "quad_generator.quads_per_cycle=8"}) ==
+  CHECK(error_of({"tile_walker.block_size=8"}) ==
+        "configuration key 'tile_walker.block_size' is 8; legal: larger than 'tile_walker.tile_size' (8)");
+  CHECK(error_of({"tile_walker.tile_size=16", "tile_walker.block_size=16"}) ==
+        "configuration key 'tile_walker.block_size' is 16; legal: larger than 'tile_walker.tile_size' (16)");
+  CHECK(error_of({"tile_walker.tile_size=4", "quad_generator.quads_per_cycle=8"}) ==
         "configuration key 'quad_generator.quads_per_cycle' is 8; legal: at most the quads of a tile (4)");
   CHECK(error_of({"early_z.quads_per_cycle=8"}) ==
         "configuration key 'early_z.quads_per_cycle' is 8; legal: at most 'quad_generator.quads_per_cycle' "
         "(4)");
-  CHECK(error_of({"walker.tile_size=4", "z_cache.parts=4"}) ==
+  CHECK(error_of({"tile_walker.tile_size=4", "z_cache.parts=4"}) ==
         "configuration key 'z_cache.parts' is 4; legal: at most the rows of quads of a tile (2)");
   CHECK(error_of({"z_cache.lines=8", "z_cache.ways=4", "z_cache.parts=4"}) ==
         "configuration key 'z_cache.lines' is 8; legal: at least 'z_cache.ways' times 'z_cache.parts' (16)");
@@ -104,9 +119,9 @@ TEST_CASE("config: keys that must fit each other") {
   CHECK(error_of({"z_cache.parts=4", "z_cache.write_buffers=3"}) ==
         "configuration key 'z_cache.write_buffers' is 3; legal: at least 'z_cache.parts' (4)");
   // And the same just inside.
-  CHECK(error_of({"walker.tile_size=4", "walker.block_size=8"}).empty());
+  CHECK(error_of({"tile_walker.tile_size=4", "tile_walker.block_size=8"}).empty());
   CHECK(error_of({"quad_generator.quads_per_cycle=16", "early_z.quads_per_cycle=16"}).empty());
-  CHECK(error_of({"walker.tile_size=4", "z_cache.parts=2"}).empty());
+  CHECK(error_of({"tile_walker.tile_size=4", "z_cache.parts=2"}).empty());
   CHECK(error_of({"z_cache.lines=16", "z_cache.ways=4", "z_cache.parts=4"}).empty());
   CHECK(error_of({"z_cache.parts=4", "z_cache.misses_in_flight=4", "z_cache.write_buffers=4"}).empty());
 }
@@ -138,7 +153,7 @@ TEST_CASE("config: a file is refused by its name too, and one that was written i
   CHECK(error_of_file("").empty());
 
   Config config;
-  for (const char* setting : {"late_z=no_write", "walker.tile_size=16", "walker.block_level=false",
+  for (const char* setting : {"late_z=no_write", "tile_walker.tile_size=16", "tile_walker.block_level=false",
                               "depth.interpolator=plane", "memory.latency=65535", "setup.interval=16"}) {
     set_config(config, setting);
   }

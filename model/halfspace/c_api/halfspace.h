@@ -98,7 +98,7 @@ HALFSPACE_API int halfspace_configure_file(halfspace_model* model, const char* p
 /** The same from TOML text. */
 HALFSPACE_API int halfspace_configure(halfspace_model* model, const char* toml);
 
-/** One key: "walker.tile_size=16". */
+/** One key: "tile_walker.tile_size=16". */
 HALFSPACE_API int halfspace_set(halfspace_model* model, const char* assignment);
 
 /** Bits of a link's packet, to be checked against $bits; or a negative status. */

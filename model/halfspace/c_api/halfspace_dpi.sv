@@ -101,7 +101,7 @@ package halfspace_dpi;
       demand(halfspace_configure_file(model, path));
     endfunction
 
-    /// One key: "walker.tile_size=16".
+    /// One key: "tile_walker.tile_size=16".
     function void set(string assignment);
       demand(halfspace_set(model, assignment));
     endfunction

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <toml++/toml.h>
+#include <algorithm>
 #include <charconv>
 #include <variant>
 
@@ -65,20 +66,20 @@ const std::vector<Key>& keys() {
        IntegerChoice{&Config::setup_interval, {1, 2, 4, 8, 16}}},
       {"setup.fifo", "triangles", "output FIFO of setup",
        IntegerRange{&Config::setup_fifo, kLeastFifo, kMostFifo}},
-      {"walker.tile_size", "pixels", "side of the tile that the edge evaluator takes in one step",
+      {"tile_walker.tile_size", "pixels", "side of the tile that the edge evaluator takes in one step",
        IntegerChoice{&Config::tile_size, {4, 8, 16}}, Changes::kFunction},
-      {"walker.block_size", "pixels",
+      {"tile_walker.block_size", "pixels",
        "side of the block that the walker decides before its tiles; larger than a tile",
        IntegerChoice{&Config::block_size, {8, 16, 32, 64}}, Changes::kFunction},
-      {"walker.block_level", "", "decide whole blocks first; off: every tile of the bounds is decided",
+      {"tile_walker.block_level", "", "decide whole blocks first; off: every tile of the bounds is decided",
        Switch{&Config::block_level}, Changes::kFunction},
-      {"walker.trivial_reject", "", "drop blocks and tiles that are outside one edge",
+      {"tile_walker.trivial_reject", "", "drop blocks and tiles that are outside one edge",
        Switch{&Config::trivial_reject}, Changes::kFunction},
-      {"walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside",
+      {"tile_walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside",
        Switch{&Config::trivial_accept}, Changes::kFunction},
-      {"walker.step_interval", "cycles", "cycles a step of the walker takes",
+      {"tile_walker.step_interval", "cycles", "cycles a step of the walker takes",
        IntegerRange{&Config::walker_step_interval, 1, 8}},
-      {"walker.fifo", "tile jobs", "output FIFO of the walker",
+      {"tile_walker.fifo", "tile jobs", "output FIFO of the walker",
        IntegerRange{&Config::walker_fifo, kLeastFifo, kMostFifo}},
       {"edge_evaluator.pipe_stages", "registers", "pipeline registers before the output FIFO",
        IntegerRange{&Config::edge_pipe_stages, 1, 3}},
@@ -193,10 +194,24 @@ struct Assign {
   }
 };
 
+/// Sections that had another name, and the one they have now.
+struct Renamed {
+  std::string_view was;
+  std::string_view is;
+};
+constexpr Renamed kRenamed[] = {{"walker.", "tile_walker."}};
+
 const Key& find_key(std::string_view name) {
-  for (const Key& key : keys()) {
-    if (key.name == name) {
-      return key;
+  const auto find = [](std::string_view wanted) { return std::ranges::find(keys(), wanted, &Key::name); };
+  if (const auto found = find(name); found != keys().end()) {
+    return *found;
+  }
+  for (const Renamed& section : kRenamed) {
+    if (name.starts_with(section.was)) {
+      const std::string now = std::string(section.is) + std::string(name.substr(section.was.size()));
+      if (find(now) != keys().end()) {
+        throw InputError(fmt::format("unknown configuration key '{}'; it is '{}' now", name, now));
+      }
     }
   }
   std::vector<std::string> names;
@@ -291,8 +306,8 @@ void validate(const Config& config) {
       throw InputError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
     }
   };
-  demand(config.block_size > config.tile_size, "walker.block_size", config.block_size,
-         fmt::format("larger than 'walker.tile_size' ({})", config.tile_size));
+  demand(config.block_size > config.tile_size, "tile_walker.block_size", config.block_size,
+         fmt::format("larger than 'tile_walker.tile_size' ({})", config.tile_size));
   const int quads = config.tile_size * config.tile_size / 4;
   demand(config.quad_width <= quads, "quad_generator.quads_per_cycle", config.quad_width,
          fmt::format("at most the quads of a tile ({})", quads));

@@ -65,7 +65,8 @@ struct ConfigKey {
 /// Every key in the order of the reference, with its value in `config`.
 std::vector<ConfigKey> config_keys(const Config& config);
 
-/// Sets `key` from text. Throws InputError for an unknown key or an illegal value.
+/// Sets `key` from text. Throws InputError for an unknown key, with the new name of one that was renamed, or
+/// an illegal value.
 void set_config(Config& config, std::string_view key, std::string_view value);
 
 /// Applies "key=value". Throws InputError.
