@@ -2,6 +2,6 @@
 execute_process(COMMAND ${PRINT} OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${COMMITTED} committed)
 if(NOT printed STREQUAL committed)
-  message(FATAL_ERROR "${COMMITTED} differs from model/halfspace/numerics/widths.hpp and model/halfspace/units/packets.hpp.\n"
-                      "To print it anew: cmake --build ${BUILD} --target raster_pkg\n")
+  message(FATAL_ERROR "${COMMITTED} differs from model/halfspace/config/keys.hpp, model/halfspace/numerics/widths.hpp and "
+                      "model/halfspace/units/packets.hpp.\nTo print it anew: cmake --build ${BUILD} --target raster_pkg\n")
 endif()

@@ -86,8 +86,8 @@ class Bench {
       Random random(options_.seed + n);
       const Frame frame = crowded(random_frame(random), random);
       Config config = config_;
-      config.memory_latency = pick(random, {1, 2, 20, 100, 400, config.memory_latency});
-      config.fast_clear = random.between(0, 3) != 0;
+      config.memory.latency = pick(random, {1, 2, 20, 100, 400, config.memory.latency});
+      config.z_cache.fast_clear = random.between(0, 3) != 0;
       compare(frame, config, stalls(random), options_.seed + n,
               fmt::format("random frame {}, seed {}", n, options_.seed + n));
     }
@@ -206,7 +206,7 @@ class Bench {
     const bool divider = stage == Stage::kSetup && reason == stall::kSetupDivider;
     const bool request =
         stage == Stage::kZLookup && reason == stall::kLookupRequest;  // of one part before the last
-    return !(divider && config_.setup_interval == 1) && !(request && config_.z_parts == 1);
+    return !(divider && config_.setup.interval == 1) && !(request && config_.z_cache.parts == 1);
   }
 
   void print() const {

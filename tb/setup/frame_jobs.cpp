@@ -10,12 +10,12 @@ namespace halfspace::tb {
 std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupModel& model) {
   const Frame frame = load(file);
   Config config;
-  config.sub_pixel_bits = model.dut.sub_pixel_bits;
-  config.tile_size = model.dut.tile_size;
-  config.block_size = model.block_size;
-  config.block_level = model.block_level;
+  config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
+  config.tile_walker.tile_size = model.dut.tile_size;
+  config.tile_walker.block_size = model.block_size;
+  config.tile_walker.block_level = model.block_level;
   FrameResult result;
-  result.surfaces = make_surfaces(frame, config.tile_size, false);
+  result.surfaces = make_surfaces(frame, config.tile_walker.tile_size, false);
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);
   std::deque<DrawContext> draws;
   FrameSource source(frame, config, nullptr, result, draws);

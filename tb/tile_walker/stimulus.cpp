@@ -395,7 +395,7 @@ SetupTriangle random_triangle(const WalkerParameters& parameters, Random& random
 std::vector<SetupTriangle> frame_triangles(const std::string& file, const WalkerParameters& parameters) {
   const Frame frame = load(file);
   Config config;
-  config.sub_pixel_bits = parameters.sub_pixel_bits;
+  config.raster.sub_pixel_bits = parameters.sub_pixel_bits;
   std::vector<SetupTriangle> triangles;
   std::vector<ScreenTriangle> batch;
   FrontEndCounters counters;

@@ -61,9 +61,10 @@ struct CycleProbe {
 /// the walker takes time.
 std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const WalkerParameters& walker) {
   Config config;
-  config.walker_step_interval = walker.step_interval;
-  config.walker_fifo = walker.fifo_depth;
-  config.setup_queue = config.setup_fifo = config.edge_fifo = config.quad_fifo = kMostCredits;
+  config.tile_walker.step_interval = walker.step_interval;
+  config.tile_walker.fifo = walker.fifo_depth;
+  config.setup.queue = config.setup.fifo = config.edge_evaluator.fifo = config.quad_generator.fifo =
+      kMostCredits;
   CycleProbe probe;
   RecurrenceCore<OneMachine, NoStalls, CycleProbe> core(machine(config), make_credits(config), NoStalls{},
                                                         probe);

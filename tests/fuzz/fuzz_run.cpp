@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::uint64_t survivors = 0;
   for (const int tile_size : {4, 8, 16}) {
     Config config;
-    config.tile_size = tile_size;
+    config.tile_walker.tile_size = tile_size;
     const Counters counters = run_functional(*frame, config, false, nullptr).counters;
     if (tile_size != 4 && counters.early_z.survivors != survivors) std::abort();
     survivors = counters.early_z.survivors;

@@ -143,7 +143,7 @@ TEST_CASE("a jittered mesh has no gaps and no double covers") {
   FrameBuilder builder(1024);
   builder.draw(window);
   Config config;
-  config.sub_pixel_bits = bits;
+  config.raster.sub_pixel_bits = bits;
   const Surface surface = run_surface(builder.frame, config);
   const std::vector<std::uint16_t> counts = rows(surface.fragments);
   CHECK(std::count(counts.begin(), counts.end(), 0) == 0);
@@ -202,7 +202,7 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
     builder.draw(random_triangles(random, 128, 30));
   }
   Config config;
-  config.tile_size = tile_size;
+  config.tile_walker.tile_size = tile_size;
   QuadChecker checker;
   const FrameResult result = run_functional(builder.frame, config, false, &checker);
   const QuadGeneratorCounters& counters = result.counters.quad_generator;

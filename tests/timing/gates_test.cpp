@@ -18,7 +18,7 @@ class Rig {
   explicit Rig(const Config& config)
       : probe_(capacities(config), &times, nullptr),
         core_(machine(config), make_credits(config), NoStalls{}, probe_),
-        lines_(static_cast<std::uint32_t>(config.z_lines)) {
+        lines_(static_cast<std::uint32_t>(config.z_cache.lines)) {
     core_.start(1000);
     probe_.draw(0);
   }
@@ -55,10 +55,10 @@ class Rig {
 
 Config deep() {
   Config config;
-  config.setup_queue = config.setup_fifo = config.walker_fifo = config.quad_fifo = 64;
-  config.edge_fifo = 32;
-  config.early_z_pending = config.early_z_fifo = 64;
-  config.z_misses_in_flight = config.z_write_buffers = 64;
+  config.setup.queue = config.setup.fifo = config.tile_walker.fifo = config.quad_generator.fifo = 64;
+  config.edge_evaluator.fifo = 32;
+  config.early_z.pending = config.early_z.fifo = 64;
+  config.z_cache.misses_in_flight = config.z_cache.write_buffers = 64;
   return config;
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("timing gates: latency of each unit", "[timing]") {
 TEST_CASE("timing gates: pipeline registers of the edge evaluator", "[timing]") {
   for (const int stages : {1, 2, 3}) {
     Config config = deep();
-    config.edge_pipe_stages = stages;
+    config.edge_evaluator.pipe_stages = stages;
     Rig rig(config);
     rig.triangle(1, {4});
     CHECK(rig.times.g.at(0) == rig.times.e.at(0) + static_cast<std::uint64_t>(stages) + 1);
@@ -101,13 +101,13 @@ TEST_CASE("timing gates: pipeline registers of the edge evaluator", "[timing]") 
 
 TEST_CASE("timing gates: a full queue stops setup until a decision", "[timing]") {
   Config config = deep();
-  config.setup_queue = 2;
+  config.setup.queue = 2;
   Rig rig(config);
   rig.dropped(100);
   // cull(n) = decide(n - 2) + 1 and decide = cull + 4: two triangles in 5 cycles
   CHECK(span(rig.times.decide, 20) == 50);
   Config enough = deep();
-  enough.setup_queue = 5;
+  enough.setup.queue = 5;
   Rig full_rate(enough);
   full_rate.dropped(100);
   CHECK(span(full_rate.times.decide, 20) == 20);
@@ -115,7 +115,7 @@ TEST_CASE("timing gates: a full queue stops setup until a decision", "[timing]")
 
 TEST_CASE("timing gates: setup waits for its FIFO, and drops without it", "[timing]") {
   Config config = deep();
-  config.setup_fifo = 2;
+  config.setup.fifo = 2;
   Rig rig(config);
   rig.triangle(1000, {0});  // the walker is busy until 22 + 1000
   rig.triangle(1, {0});
@@ -135,7 +135,7 @@ TEST_CASE("timing gates: setup waits for its FIFO, and drops without it", "[timi
 TEST_CASE("timing gates: the divider takes a drawn triangle every so many cycles", "[timing]") {
   for (const int interval : {1, 2, 4, 8, 16}) {
     Config config = deep();
-    config.setup_interval = interval;
+    config.setup.interval = interval;
     Rig rig(config);
     rig.triangle(1, {0});
     rig.dropped();
@@ -158,7 +158,7 @@ TEST_CASE("timing gates: a triangle is loaded in the last step of the one before
 
 TEST_CASE("timing gates: the walker waits for its FIFO in the step that emits", "[timing]") {
   Config config = deep();
-  config.walker_fifo = 2;
+  config.tile_walker.fifo = 2;
   Rig rig(config);
   rig.triangle(1, {0, 0, 0});
   CHECK(rig.times.emit.at(1) == 24);
@@ -168,7 +168,7 @@ TEST_CASE("timing gates: the walker waits for its FIFO in the step that emits", 
 
 TEST_CASE("timing gates: the edge evaluator waits for its FIFO", "[timing]") {
   Config config = deep();
-  config.edge_fifo = 2;
+  config.edge_evaluator.fifo = 2;
   Rig rig(config);
   rig.triangle(1, {64, 64, 64, 64});
   CHECK(rig.times.e.at(1) == 26);
@@ -178,8 +178,8 @@ TEST_CASE("timing gates: the edge evaluator waits for its FIFO", "[timing]") {
 
 TEST_CASE("timing gates: the quad generator waits for a whole burst of its FIFO", "[timing]") {
   Config config = deep();
-  config.quad_fifo = 2;
-  config.early_z_pending = 2;
+  config.quad_generator.fifo = 2;
+  config.early_z.pending = 2;
   Rig rig(config);
   rig.triangle(1, {16, 16, 0, 16});  // 4 beats each, and an empty coverage
   CHECK(rig.times.g.at(0) == 28);
@@ -191,8 +191,8 @@ TEST_CASE("timing gates: the quad generator waits for a whole burst of its FIFO"
 
 TEST_CASE("timing gates: the pending store takes a burst when one has been tested", "[timing]") {
   Config config = deep();
-  config.early_z_pending = 2;
-  config.early_z_width = 1;
+  config.early_z.pending = 2;
+  config.early_z.quads_per_cycle = 1;
   Rig rig(config);
   rig.triangle(1, {16, 4, 4});
   CHECK(rig.times.f.at(0) == 30);
@@ -204,7 +204,7 @@ TEST_CASE("timing gates: the pending store takes a burst when one has been teste
 
 TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
   Config config = deep();
-  config.early_z_fifo = 2;
+  config.early_z.fifo = 2;
   Rig rig(config);
   rig.triangle(1, {4, 4, 4});
   CHECK(rig.times.b.at(1) == 43);
@@ -214,8 +214,8 @@ TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
 
 TEST_CASE("timing gates: a fetched line arrives after latency and transfer", "[timing]") {
   Config config = deep();
-  config.memory_latency = 50;
-  config.memory_read_bytes = 64;
+  config.memory.latency = 50;
+  config.memory.read_bytes = 64;
   Rig rig(config);
   rig.miss(4, {fetch(1)});
   CHECK(rig.times.f.at(0) == 30);
@@ -239,7 +239,7 @@ TEST_CASE("timing gates: lines made from the clear value are resolved one a cycl
 
 TEST_CASE("timing gates: a cleared line that was replaced is resolved when it is out", "[timing]") {
   Config config = deep();
-  config.memory_latency = 50;
+  config.memory.latency = 50;
   Rig rig(config);
   rig.miss(4, {{.line = 1, .victim = 7, .bytes = 256, .victim_bytes = 256, .fetch = true}});
   rig.miss(4, {{.line = 7, .bytes = 256}});
@@ -249,8 +249,8 @@ TEST_CASE("timing gates: a cleared line that was replaced is resolved when it is
 
 TEST_CASE("timing gates: a request waits for a fill buffer", "[timing]") {
   Config config = deep();
-  config.z_misses_in_flight = 1;
-  config.memory_latency = 50;
+  config.z_cache.misses_in_flight = 1;
+  config.memory.latency = 50;
   Rig rig(config);
   rig.miss(4, {fetch(1)});
   rig.miss(4, {fetch(2)});
@@ -260,8 +260,8 @@ TEST_CASE("timing gates: a request waits for a fill buffer", "[timing]") {
 
 TEST_CASE("timing gates: a line that left may be asked for when it is in memory", "[timing]") {
   Config config = deep();
-  config.memory_latency = 50;
-  config.memory_write_bytes = 8;  // 32 cycles a line
+  config.memory.latency = 50;
+  config.memory.write_bytes = 8;  // 32 cycles a line
   Rig rig(config);
   rig.miss(4, {evict(1, 7)});
   rig.miss(4, {fetch(7)});
@@ -278,10 +278,10 @@ TEST_CASE("timing gates: a line that left may be asked for when it is in memory"
 
 TEST_CASE("timing gates: a dirty victim waits for a slot of the write buffer", "[timing]") {
   Config config = deep();
-  config.memory_latency = 1;
-  config.memory_read_bytes = 256;
-  config.memory_write_bytes = 8;
-  config.z_write_buffers = 2;
+  config.memory.latency = 1;
+  config.memory.read_bytes = 256;
+  config.memory.write_bytes = 8;
+  config.z_cache.write_buffers = 2;
   Rig rig(config);
   for (std::uint32_t i = 0; i < 4; ++i) {
     rig.miss(4, {evict(i, 100 + i)});
@@ -294,7 +294,7 @@ TEST_CASE("timing gates: a dirty victim waits for a slot of the write buffer", "
 
 TEST_CASE("timing gates: requests of one burst follow each other", "[timing]") {
   Config config = deep();
-  config.memory_latency = 50;
+  config.memory.latency = 50;
   Rig rig(config);
   rig.miss(4, {fetch(1), fetch(2), fetch(3)});
   CHECK(rig.times.b.at(0) == 31 + 50 + 3 * 4);  // the channel is busy for 4 cycles a line
@@ -313,8 +313,8 @@ TEST_CASE("timing gates: a clear waits until the machine is empty", "[timing]") 
 
 TEST_CASE("timing gates: a clear waits for writes to memory", "[timing]") {
   Config config = deep();
-  config.memory_latency = 1;
-  config.memory_write_bytes = 1;
+  config.memory.latency = 1;
+  config.memory.write_bytes = 1;
   Rig rig(config);
   rig.miss(4, {evict(1, 7)});
   const std::uint64_t written = rig.times.b.at(0) + 256;
@@ -325,9 +325,9 @@ TEST_CASE("timing gates: a clear waits for writes to memory", "[timing]") {
 
 TEST_CASE("timing gates: the flush looks at a line a cycle and waits for the write buffer", "[timing]") {
   Config config = deep();
-  config.z_lines = 16;
-  config.z_write_buffers = 1;
-  config.memory_write_bytes = 64;
+  config.z_cache.lines = 16;
+  config.z_cache.write_buffers = 1;
+  config.memory.write_bytes = 64;
   Rig clean(config);
   clean.triangle(1, {4});
   CHECK(clean.flush({}) == 45 + 16);
@@ -346,7 +346,7 @@ TEST_CASE("timing rates: setup takes a triangle a cycle, a drawn one each interv
   CHECK(span(culled.times.decide, 100) == 100);
   for (const int interval : {1, 2, 4, 8, 16}) {
     Config config = deep();
-    config.setup_interval = interval;
+    config.setup.interval = interval;
     Rig rig(config);
     for (int i = 0; i < 200; ++i) {
       rig.triangle(1, {0});
@@ -358,7 +358,7 @@ TEST_CASE("timing rates: setup takes a triangle a cycle, a drawn one each interv
 TEST_CASE("timing rates: setup with few slots gives so many triangles in 19 cycles", "[timing]") {
   for (const int slots : {2, 4, 16}) {
     Config config = deep();
-    config.setup_fifo = slots;
+    config.setup.fifo = slots;
     Rig rig(config);
     for (int i = 0; i < 400; ++i) {
       rig.triangle(1, {0});
@@ -370,7 +370,7 @@ TEST_CASE("timing rates: setup with few slots gives so many triangles in 19 cycl
 TEST_CASE("timing rates: a step each interval of the walker", "[timing]") {
   for (const int interval : {1, 2, 3, 8}) {
     Config config = deep();
-    config.walker_step_interval = interval;
+    config.tile_walker.step_interval = interval;
     Rig rig(config);
     for (int i = 0; i < 100; ++i) {
       rig.triangle(5, {0}, 2);
@@ -382,9 +382,9 @@ TEST_CASE("timing rates: a step each interval of the walker", "[timing]") {
 TEST_CASE("timing rates: few slots between walker, evaluator and quad generator", "[timing]") {
   const auto rate = [](int walker, int edge, int stages) {
     Config config = deep();
-    config.walker_fifo = walker;
-    config.edge_fifo = edge;
-    config.edge_pipe_stages = stages;
+    config.tile_walker.fifo = walker;
+    config.edge_evaluator.fifo = edge;
+    config.edge_evaluator.pipe_stages = stages;
     Rig rig(config);
     rig.triangle(1, std::vector<int>(200, 0));
     return span(rig.times.g, 60);
@@ -402,8 +402,8 @@ TEST_CASE("timing rates: quads a cycle", "[timing]") {
   for (const int width : {1, 2, 4, 8, 16}) {
     for (const int quads : {1, 3, 4, 7, 16}) {
       Config config = deep();
-      config.quad_width = width;
-      config.early_z_width = width;
+      config.quad_generator.quads_per_cycle = width;
+      config.early_z.quads_per_cycle = width;
       Rig rig(config);
       rig.triangle(1, std::vector<int>(300, quads));
       const int beats = (quads + width - 1) / width;
@@ -415,7 +415,7 @@ TEST_CASE("timing rates: quads a cycle", "[timing]") {
 
 TEST_CASE("timing rates: a narrower test", "[timing]") {
   Config config = deep();
-  config.early_z_width = 2;
+  config.early_z.quads_per_cycle = 2;
   Rig rig(config);
   rig.triangle(1, std::vector<int>(500, 7));  // 2 beats in, 4 to test
   CHECK(span(rig.times.y, 50) == 200);
@@ -423,12 +423,12 @@ TEST_CASE("timing rates: a narrower test", "[timing]") {
 
 TEST_CASE("timing rates: few slots at the sink, a short pending store", "[timing]") {
   Config sink = deep();
-  sink.early_z_fifo = 2;
+  sink.early_z.fifo = 2;
   Rig few_slots(sink);
   few_slots.triangle(1, std::vector<int>(500, 4));
   CHECK(span(few_slots.times.y, 40) == 60);  // two in 2 + 1
   Config pending = deep();
-  pending.early_z_pending = 4;
+  pending.early_z.pending = 4;
   Rig short_store(pending);
   short_store.triangle(1, std::vector<int>(500, 4));
   CHECK(span(short_store.times.y, 40) == 130);  // four in 12 + 1
@@ -437,10 +437,10 @@ TEST_CASE("timing rates: few slots at the sink, a short pending store", "[timing
 TEST_CASE("timing rates: memory's bandwidth, latency and write channel", "[timing]") {
   const auto rate = [](int buffers, int latency, int read_bytes, int write_bytes, bool dirty) {
     Config config = deep();
-    config.z_misses_in_flight = buffers;
-    config.memory_latency = latency;
-    config.memory_read_bytes = read_bytes;
-    config.memory_write_bytes = write_bytes;
+    config.z_cache.misses_in_flight = buffers;
+    config.memory.latency = latency;
+    config.memory.read_bytes = read_bytes;
+    config.memory.write_bytes = write_bytes;
     Rig rig(config);
     for (std::uint32_t i = 0; i < 300; ++i) {
       rig.miss(4, {dirty ? evict(i, 500 + i) : fetch(i)});

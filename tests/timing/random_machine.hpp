@@ -28,47 +28,48 @@ inline int mostly_small(Random& random, int least, int most) {
 /// A valid configuration; every key that changes time, and those that change packets, are random.
 inline Config random_config(Random& random) {
   Config config;
-  config.sub_pixel_bits = static_cast<int>(random.between(4, 8));
-  config.tile_size = pick(random, {4, 8, 16});
+  config.raster.sub_pixel_bits = static_cast<int>(random.between(4, 8));
+  config.tile_walker.tile_size = pick(random, {4, 8, 16});
   do {
-    config.block_size = pick(random, {8, 16, 32, 64});
-  } while (config.block_size <= config.tile_size);
-  config.block_level = random.between(0, 3) != 0;
-  config.trivial_reject = random.between(0, 3) != 0;
-  config.trivial_accept = random.between(0, 3) != 0;
-  config.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
+    config.tile_walker.block_size = pick(random, {8, 16, 32, 64});
+  } while (config.tile_walker.block_size <= config.tile_walker.tile_size);
+  config.tile_walker.block_level = random.between(0, 3) != 0;
+  config.tile_walker.trivial_reject = random.between(0, 3) != 0;
+  config.tile_walker.trivial_accept = random.between(0, 3) != 0;
+  config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
   config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
 
-  config.setup_queue = mostly_small(random, 2, 64);
-  config.setup_interval = pick(random, {1, 2, 4, 8, 16});
-  config.setup_fifo = mostly_small(random, 2, 64);
-  config.walker_step_interval = mostly_small(random, 1, 8);
-  config.walker_fifo = mostly_small(random, 2, 64);
-  config.edge_pipe_stages = static_cast<int>(random.between(1, 3));
-  config.edge_fifo = mostly_small(random, 2, 32);
+  config.setup.queue = mostly_small(random, 2, 64);
+  config.setup.interval = pick(random, {1, 2, 4, 8, 16});
+  config.setup.fifo = mostly_small(random, 2, 64);
+  config.tile_walker.step_interval = mostly_small(random, 1, 8);
+  config.tile_walker.fifo = mostly_small(random, 2, 64);
+  config.edge_evaluator.pipe_stages = static_cast<int>(random.between(1, 3));
+  config.edge_evaluator.fifo = mostly_small(random, 2, 32);
   do {
-    config.quad_width = pick(random, {1, 2, 4, 8, 16});
-  } while (config.quad_width > config.tile_size * config.tile_size / 4);
-  config.quad_fifo = mostly_small(random, 2, 64);
+    config.quad_generator.quads_per_cycle = pick(random, {1, 2, 4, 8, 16});
+  } while (config.quad_generator.quads_per_cycle >
+           config.tile_walker.tile_size * config.tile_walker.tile_size / 4);
+  config.quad_generator.fifo = mostly_small(random, 2, 64);
   do {
-    config.early_z_width = pick(random, {1, 2, 4, 8, 16});
-  } while (config.early_z_width > config.quad_width);
-  config.early_z_pending = mostly_small(random, 2, 64);
-  config.early_z_fifo = mostly_small(random, 2, 64);
+    config.early_z.quads_per_cycle = pick(random, {1, 2, 4, 8, 16});
+  } while (config.early_z.quads_per_cycle > config.quad_generator.quads_per_cycle);
+  config.early_z.pending = mostly_small(random, 2, 64);
+  config.early_z.fifo = mostly_small(random, 2, 64);
   do {
-    config.z_parts = pick(random, {1, 2, 4});
-  } while (config.z_parts > config.tile_size / 2);
-  config.z_ways = pick(random, {1, 1, 2, 4, 8, 16});
+    config.z_cache.parts = pick(random, {1, 2, 4});
+  } while (config.z_cache.parts > config.tile_walker.tile_size / 2);
+  config.z_cache.ways = pick(random, {1, 1, 2, 4, 8, 16});
   do {
-    config.z_lines = pick(random, {1, 2, 4, 4, 8, 8, 16, 32, 64, 128, 512});
-  } while (config.z_lines < config.z_parts * config.z_ways);
-  config.z_misses_in_flight = mostly_small(random, config.z_parts, 64);
-  config.z_write_buffers = mostly_small(random, config.z_parts, 64);
-  config.fast_clear = random.between(0, 2) != 0;
-  config.z_clear_tiles = pick(random, {1, 2, 4, 64, 1024});
-  config.memory_latency = pick(random, {1, 2, 5, 20, 50, 100, 400, 5000});
-  config.memory_read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
-  config.memory_write_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
+    config.z_cache.lines = pick(random, {1, 2, 4, 4, 8, 8, 16, 32, 64, 128, 512});
+  } while (config.z_cache.lines < config.z_cache.parts * config.z_cache.ways);
+  config.z_cache.misses_in_flight = mostly_small(random, config.z_cache.parts, 64);
+  config.z_cache.write_buffers = mostly_small(random, config.z_cache.parts, 64);
+  config.z_cache.fast_clear = random.between(0, 2) != 0;
+  config.z_cache.clear_tiles = pick(random, {1, 2, 4, 64, 1024});
+  config.memory.latency = pick(random, {1, 2, 5, 20, 50, 100, 400, 5000});
+  config.memory.read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
+  config.memory.write_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
   return config;
 }
 

@@ -33,15 +33,15 @@ RetimedFrame full_run(const Frame& frame, const Config& config) {
 Config random_timing(Random& random, const Config& recorded) {
   while (true) {
     Config config = random_config(random);
-    config.sub_pixel_bits = recorded.sub_pixel_bits;
-    config.tile_size = recorded.tile_size;
-    config.block_size = recorded.block_size;
-    config.block_level = recorded.block_level;
-    config.trivial_reject = recorded.trivial_reject;
-    config.trivial_accept = recorded.trivial_accept;
-    config.interpolator = recorded.interpolator;
+    config.raster.sub_pixel_bits = recorded.raster.sub_pixel_bits;
+    config.tile_walker.tile_size = recorded.tile_walker.tile_size;
+    config.tile_walker.block_size = recorded.tile_walker.block_size;
+    config.tile_walker.block_level = recorded.tile_walker.block_level;
+    config.tile_walker.trivial_reject = recorded.tile_walker.trivial_reject;
+    config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
+    config.depth.interpolator = recorded.depth.interpolator;
     config.late_z = recorded.late_z;
-    config.fast_clear = recorded.fast_clear;
+    config.z_cache.fast_clear = recorded.z_cache.fast_clear;
     try {
       validate(config);
       return config;
@@ -74,11 +74,13 @@ TEST_CASE("re-timing equals a full run on random machines, one by one and in a b
     for (int i = 0; i < 40; ++i) {
       machines.push_back(random_timing(random, recorded));
       if (i > 20) {  // so that some share a pass
-        machines.back().z_lines = recorded.z_lines;
-        machines.back().z_ways = recorded.z_ways;
-        machines.back().z_parts = recorded.z_parts;
-        machines.back().z_misses_in_flight = std::max(machines.back().z_misses_in_flight, recorded.z_parts);
-        machines.back().z_write_buffers = std::max(machines.back().z_write_buffers, recorded.z_parts);
+        machines.back().z_cache.lines = recorded.z_cache.lines;
+        machines.back().z_cache.ways = recorded.z_cache.ways;
+        machines.back().z_cache.parts = recorded.z_cache.parts;
+        machines.back().z_cache.misses_in_flight =
+            std::max(machines.back().z_cache.misses_in_flight, recorded.z_cache.parts);
+        machines.back().z_cache.write_buffers =
+            std::max(machines.back().z_cache.write_buffers, recorded.z_cache.parts);
       }
     }
     const std::vector<RetimedFrame> batch = retimer.retime(machines);
@@ -94,12 +96,12 @@ TEST_CASE("re-timing equals a full run on random machines, one by one and in a b
 TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds", "[timing]") {
   Random random(seed());
   Config config;
-  config.memory_latency = 65535;
-  config.z_misses_in_flight = 1;
-  config.memory_read_bytes = 1;
-  config.memory_write_bytes = 1;
-  config.z_lines = 1;
-  config.z_ways = 1;
+  config.memory.latency = 65535;
+  config.z_cache.misses_in_flight = 1;
+  config.memory.read_bytes = 1;
+  config.memory.write_bytes = 1;
+  config.z_cache.lines = 1;
+  config.z_cache.ways = 1;
   for (int run = 0; run < 20; ++run) {
     const Frame frame = random_frame(random);
     const FrameRecord record = record_frame(frame, config, nullptr);
@@ -117,10 +119,10 @@ TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds
 TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]") {
   // 70,000 bursts on a line that is never there, 65,535 cycles each: more than 2^32
   FrameRecord record;
-  record.config.z_lines = 1;
-  record.config.z_ways = 1;
-  record.config.memory_latency = 65535;
-  record.config.z_misses_in_flight = 1;
+  record.config.z_cache.lines = 1;
+  record.config.z_cache.ways = 1;
+  record.config.memory.latency = 65535;
+  record.config.z_cache.misses_in_flight = 1;
   record.surfaces.push_back({.tiles_x = 2, .tiles = 2, .sample_bytes = 4});
   record.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
   record.triangles.push_back({.jobs = 70000});

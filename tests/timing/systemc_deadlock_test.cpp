@@ -48,8 +48,8 @@ void check_lists_everything(const std::string& text) {
 
 TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
   Config config;
-  config.z_parts = 2;
-  config.z_misses_in_flight = 1;
+  config.z_cache.parts = 2;
+  config.z_cache.misses_in_flight = 1;
   CHECK_THROWS(validate(config));
   const std::string text = deadlock(config);
   CAPTURE(text);
@@ -64,10 +64,10 @@ TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
 
 TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
   Config config;
-  config.z_parts = 4;
-  config.z_lines = 16;
-  config.z_ways = 4;
-  config.z_write_buffers = 2;
+  config.z_cache.parts = 4;
+  config.z_cache.lines = 16;
+  config.z_cache.ways = 4;
+  config.z_cache.write_buffers = 2;
   CHECK_THROWS(validate(config));
   const std::string text = deadlock(config);
   CAPTURE(text);
@@ -78,8 +78,8 @@ TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
 
 TEST_CASE("after a deadlock the next run works") {
   Config config;
-  config.z_parts = 2;
-  config.z_misses_in_flight = 1;
+  config.z_cache.parts = 2;
+  config.z_cache.misses_in_flight = 1;
   CHECK(deadlock(config) != "none");
   CHECK(deadlock({}) == "none");
 }

@@ -119,7 +119,7 @@ void check_same_image(const FrameResult& ours, const FrameResult& theirs) {
 TEST_CASE("a host draws a frame by commands, and the image is in its memory") {
   const Frame frame = small_frame();
   Config config;
-  config.z_lines = 8;
+  config.z_cache.lines = 8;
   const std::uint64_t base = 0x1000;
   std::uint64_t cycles = 0;
   Platform platform(config, base, base + depth_bytes(frame, config), [&](Host& host) {
@@ -231,9 +231,9 @@ TEST_CASE("a memory that is too small is an error, not a crash") {
 
 TEST_CASE("the memory answers in order, each channel at its own width") {
   Config config;
-  config.memory_latency = 10;
-  config.memory_read_bytes = 4;
-  config.memory_write_bytes = 2;
+  config.memory.latency = 10;
+  config.memory.read_bytes = 4;
+  config.memory.write_bytes = 2;
   struct Answer {
     double called;
     double done;

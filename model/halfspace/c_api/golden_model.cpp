@@ -50,20 +50,16 @@ ChainContext& GoldenModel::context() {
     return *context_;
   }
   validate(config_);
-  if (config_.interpolator != DepthInterpolator::kBarycentric) {
+  if (config_.depth.interpolator != DepthInterpolator::kBarycentric) {
     throw InputError("configuration key 'depth.interpolator' is 'plane'; legal here: barycentric");
   }
   auto context = std::make_unique<ChainContext>();
-  context->widths = {.SubPixelBits = config_.sub_pixel_bits,
-                     .TileSize = config_.tile_size,
-                     .QuadWidth = config_.quad_width,
-                     .TestWidth = config_.early_z_width,
-                     .ZParts = config_.z_parts};
-  context->walker = {.sub_pixel_bits = config_.sub_pixel_bits,
-                     .block_size = config_.block_size,
-                     .block_level = config_.block_level,
-                     .trivial_reject = config_.trivial_reject,
-                     .trivial_accept = config_.trivial_accept};
+  context->widths = widths(config_);
+  context->walker = {.sub_pixel_bits = config_.raster.sub_pixel_bits,
+                     .block_size = config_.tile_walker.block_size,
+                     .block_level = config_.tile_walker.block_level,
+                     .trivial_reject = config_.tile_walker.trivial_reject,
+                     .trivial_accept = config_.tile_walker.trivial_accept};
   for (int link = 0; link < HALFSPACE_LINKS; ++link) {
     context->expected.emplace_back(words_for(link_bits(static_cast<Link>(link), context->widths)));
   }

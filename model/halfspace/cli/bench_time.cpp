@@ -29,9 +29,9 @@ std::vector<Config> neighbours(const Config& config) {
     for (const int jobs : {4, 8, 16, 32}) {
       for (const int pending : {8, 16, 32, 64}) {
         Config machine = config;
-        machine.memory_latency = latency;
-        machine.walker_fifo = jobs;
-        machine.early_z_pending = pending;
+        machine.memory.latency = latency;
+        machine.tile_walker.fifo = jobs;
+        machine.early_z.pending = pending;
         machines.push_back(machine);
       }
     }

@@ -134,12 +134,13 @@ class RunObserver final : public Recorder {
  public:
   RunObserver(const Frame& frame, const Config& config, const Options& options, const std::string& tile_jobs,
               Timeline* timeline)
-      : Recorder(frame, config.tile_size, options),
+      : Recorder(frame, config.tile_walker.tile_size, options),
         bar_(frame.name),
         timeline_(timeline),
-        tile_size_(static_cast<std::uint32_t>(config.tile_size)) {
+        tile_size_(static_cast<std::uint32_t>(config.tile_walker.tile_size)) {
     if (!tile_jobs.empty()) {
-      jobs_.emplace(tile_jobs, Widths{.SubPixelBits = config.sub_pixel_bits, .TileSize = config.tile_size});
+      jobs_.emplace(tile_jobs, Widths{.SubPixelBits = config.raster.sub_pixel_bits,
+                                      .TileSize = config.tile_walker.tile_size});
     }
   }
 

@@ -5,194 +5,105 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <bit>
 #include <charconv>
-#include <variant>
+#include <optional>
 
 #include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
 
-/// A key whose legal values are a short list of names; the index in the list is the value of the enumeration.
-template <class Enum>
-struct NamedValues {
-  Enum Config::*member;
-  std::vector<std::string> names;
+/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`.
+struct Legal {
+  enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kOneOf } kind;
+  int least = 0;
+  int most = 0;
+  std::vector<std::string> words;  ///< as they are written; empty for integers
 };
 
-struct IntegerRange {
-  int Config::*member;
-  int least;
-  int most;
-};
-
-struct IntegerChoice {
-  int Config::*member;
-  std::vector<int> values;
-};
-
-struct Switch {
-  bool Config::*member;
-};
-
-/// Whether a key may change packets, or only the cycles in which they move.
-enum class Changes : std::uint8_t { kFunction, kTime };
+// The names that the table uses.
+Legal range(int least, int most) { return {Legal::Kind::kRange, least, most, {}}; }
+Legal power_of_two(int least, int most) { return {Legal::Kind::kPowerOfTwo, least, most, {}}; }
+Legal boolean() { return {Legal::Kind::kBoolean, 0, 1, {"false", "true"}}; }
+Legal one_of(auto... names) {
+  return {Legal::Kind::kOneOf, 0, static_cast<int>(sizeof...(names)) - 1, {names...}};
+}
+enum class Changes : std::uint8_t { function, time };
 
 struct Key {
   std::string name;
+  Legal legal;
   std::string unit;
+  Changes changes;
   std::string help;
-  std::variant<IntegerRange, IntegerChoice, Switch, NamedValues<DepthInterpolator>, NamedValues<LateZ>> kind;
-  Changes changes = Changes::kTime;
+  std::string rtl;
+  int (*get)(const Config& config);
+  void (*set)(Config& config, int value);
 };
 
-/// The smallest FIFO has an output register and a slot; the largest keeps the triangles behind the walker
-/// within the 256 contexts that a tile job can name.
-constexpr int kLeastFifo = 2;
-constexpr int kMostFifo = 64;
-constexpr int kMostEdgeFifo = 32;
-
 const std::vector<Key>& keys() {
-  static const std::vector<Key> table{
-      {"late_z", "",
-       "draws whose shader may discard, writes depth or has side effects: opaque = test and write, no_write "
-       "= test only",
-       NamedValues<LateZ>{&Config::late_z, {"opaque", "no_write"}}, Changes::kFunction},
-      {"raster.sub_pixel_bits", "bits", "fraction bits of a snapped window coordinate",
-       IntegerRange{&Config::sub_pixel_bits, 4, 8}, Changes::kFunction},
-      {"setup.queue", "triangles", "triangles whose verdict is known or under way, dropped ones included",
-       IntegerRange{&Config::setup_queue, kLeastFifo, kMostFifo}},
-      {"setup.interval", "cycles", "distance of drawn triangles: cycles that a stage of the divider works",
-       IntegerChoice{&Config::setup_interval, {1, 2, 4, 8, 16}}},
-      {"setup.fifo", "triangles", "output FIFO of setup",
-       IntegerRange{&Config::setup_fifo, kLeastFifo, kMostFifo}},
-      {"tile_walker.tile_size", "pixels", "side of the tile that the edge evaluator takes in one step",
-       IntegerChoice{&Config::tile_size, {4, 8, 16}}, Changes::kFunction},
-      {"tile_walker.block_size", "pixels",
-       "side of the block that the walker decides before its tiles; larger than a tile",
-       IntegerChoice{&Config::block_size, {8, 16, 32, 64}}, Changes::kFunction},
-      {"tile_walker.block_level", "", "decide whole blocks first; off: every tile of the bounds is decided",
-       Switch{&Config::block_level}, Changes::kFunction},
-      {"tile_walker.trivial_reject", "", "drop blocks and tiles that are outside one edge",
-       Switch{&Config::trivial_reject}, Changes::kFunction},
-      {"tile_walker.trivial_accept", "", "evaluate no edge all of whose samples in the tile are inside",
-       Switch{&Config::trivial_accept}, Changes::kFunction},
-      {"tile_walker.step_interval", "cycles", "cycles a step of the walker takes",
-       IntegerRange{&Config::walker_step_interval, 1, 8}},
-      {"tile_walker.fifo", "tile jobs", "output FIFO of the walker",
-       IntegerRange{&Config::walker_fifo, kLeastFifo, kMostFifo}},
-      {"edge_evaluator.pipe_stages", "registers", "pipeline registers before the output FIFO",
-       IntegerRange{&Config::edge_pipe_stages, 1, 3}},
-      {"edge_evaluator.fifo", "tiles", "output FIFO of the edge evaluator",
-       IntegerRange{&Config::edge_fifo, kLeastFifo, kMostEdgeFifo}},
-      {"quad_generator.quads_per_cycle", "quads", "width of a beat; at most the quads of a tile",
-       IntegerChoice{&Config::quad_width, {1, 2, 4, 8, 16}}},
-      {"quad_generator.fifo", "bursts", "output FIFO of the quad generator; a burst is the quads of one tile",
-       IntegerRange{&Config::quad_fifo, kLeastFifo, kMostFifo}},
-      {"early_z.quads_per_cycle", "quads", "quads tested in a cycle; at most quad_generator.quads_per_cycle",
-       IntegerChoice{&Config::early_z_width, {1, 2, 4, 8, 16}}},
-      {"early_z.pending", "bursts", "bursts between the lookup of their lines and their test",
-       IntegerRange{&Config::early_z_pending, kLeastFifo, kMostFifo}},
-      {"early_z.fifo", "bursts", "output FIFO of early_z",
-       IntegerRange{&Config::early_z_fifo, kLeastFifo, kMostFifo}},
-      {"depth.interpolator", "",
-       "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers",
-       NamedValues<DepthInterpolator>{&Config::interpolator, {"plane", "barycentric"}}, Changes::kFunction},
-      {"z_cache.lines", "lines",
-       "lines of the z cache, all parts and ways together; room for 4 bytes a sample",
-       IntegerChoice{&Config::z_lines, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}}},
-      {"z_cache.ways", "lines", "lines of a set", IntegerChoice{&Config::z_ways, {1, 2, 4, 8, 16}}},
-      {"z_cache.parts", "", "a line holds a tile, or this part of its rows",
-       IntegerChoice{&Config::z_parts, {1, 2, 4}}},
-      {"z_cache.misses_in_flight", "lines", "fill buffers; at least z_cache.parts",
-       IntegerRange{&Config::z_misses_in_flight, 1, 64}},
-      {"z_cache.write_buffers", "lines", "lines on their way to memory; at least z_cache.parts",
-       IntegerRange{&Config::z_write_buffers, 1, 64}},
-      {"z_cache.fast_clear", "", "a clear of a whole surface marks its lines; off: it is drawn",
-       Switch{&Config::fast_clear}, Changes::kFunction},
-      {"z_cache.clear_tiles", "tiles", "tiles that a fast clear marks in a cycle",
-       IntegerChoice{&Config::z_clear_tiles, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
-      {"memory.latency", "cycles", "from a request to the first of its data",
-       IntegerRange{&Config::memory_latency, 1, 65535}},
-      {"memory.read_bytes", "bytes", "read in a cycle",
-       IntegerChoice{&Config::memory_read_bytes, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
-      {"memory.write_bytes", "bytes", "written in a cycle",
-       IntegerChoice{&Config::memory_write_bytes, {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024}}},
-  };
+  // clang-format off
+#define NOTHING(...)
+#define ROW(section, name, type, legal, unit, changes, help, rtl)                         \
+  Key{#section #name, legal, unit, Changes::changes, help, rtl,                           \
+      [](const Config& config) { return static_cast<int>(config.section name); },         \
+      [](Config& config, int value) { config.section name = static_cast<type>(value); }},
+#define KEY(section, name, type, value, legal, unit, changes, help) \
+  ROW(section, name, type, legal, unit, changes, help, "")
+#define MODULE(section, name, type, value, legal, unit, changes, help, Parameter, place) \
+  ROW(section, name, type, legal, unit, changes, help, "-G" #Parameter)
+#define PACKAGE(section, name, type, value, legal, unit, changes, help, Parameter, define) \
+  ROW(section, name, type, legal, unit, changes, help, "-D" #define)
+  static const std::vector<Key> table{HALFSPACE_KEYS(NOTHING, NOTHING, KEY, MODULE, PACKAGE)};
+#undef NOTHING
+#undef ROW
+#undef KEY
+#undef MODULE
+#undef PACKAGE
+  // clang-format on
   return table;
 }
 
-std::string legal_values(const Key& key) {
-  struct Describe {
-    std::string operator()(const IntegerRange& r) const { return fmt::format("{} to {}", r.least, r.most); }
-    std::string operator()(const IntegerChoice& c) const {
-      return fmt::format("{}", fmt::join(c.values, ", "));
+std::string legal_text(const Legal& legal) {
+  switch (legal.kind) {
+    case Legal::Kind::kRange:
+      return fmt::format("{} to {}", legal.least, legal.most);
+    case Legal::Kind::kPowerOfTwo: {
+      std::string text = std::to_string(legal.least);
+      for (int value = 2 * legal.least; value <= legal.most; value *= 2) {
+        text += fmt::format(", {}", value);
+      }
+      return text;
     }
-    std::string operator()(const Switch&) const { return "true, false"; }
-    std::string operator()(const NamedValues<DepthInterpolator>& n) const {
-      return fmt::format("{}", fmt::join(n.names, ", "));
-    }
-    std::string operator()(const NamedValues<LateZ>& n) const {
-      return fmt::format("{}", fmt::join(n.names, ", "));
-    }
-  };
-  return std::visit(Describe{}, key.kind);
+    case Legal::Kind::kBoolean:
+      return "true, false";
+    case Legal::Kind::kOneOf:
+      break;
+  }
+  return fmt::format("{}", fmt::join(legal.words, ", "));
 }
 
 std::string value_text(const Key& key, const Config& config) {
-  struct Print {
-    const Config& config;
-    std::string operator()(const IntegerRange& r) const { return std::to_string(config.*r.member); }
-    std::string operator()(const IntegerChoice& c) const { return std::to_string(config.*c.member); }
-    std::string operator()(const Switch& s) const { return config.*s.member ? "true" : "false"; }
-    std::string operator()(const NamedValues<DepthInterpolator>& n) const {
-      return n.names[static_cast<std::size_t>(config.*n.member)];
-    }
-    std::string operator()(const NamedValues<LateZ>& n) const {
-      return n.names[static_cast<std::size_t>(config.*n.member)];
-    }
-  };
-  return std::visit(Print{config}, key.kind);
+  const int value = key.get(config);
+  return key.legal.words.empty() ? std::to_string(value) : key.legal.words[static_cast<std::size_t>(value)];
 }
 
-bool parse_integer(std::string_view text, int& value) {
+/// The value that `text` says; none where it is not legal.
+std::optional<int> parse_value(const Legal& legal, std::string_view text) {
+  if (!legal.words.empty()) {
+    const auto found = std::ranges::find(legal.words, text);
+    return found == legal.words.end() ? std::nullopt
+                                      : std::optional(static_cast<int>(found - legal.words.begin()));
+  }
+  int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
+  const bool in_range =
+      error == std::errc{} && end == text.data() + text.size() && value >= legal.least && value <= legal.most;
+  const bool legal_value = in_range && (legal.kind != Legal::Kind::kPowerOfTwo ||
+                                        std::has_single_bit(static_cast<unsigned>(value)));
+  return legal_value ? std::optional(value) : std::nullopt;
 }
-
-/// Each assigns `text` and returns true, or returns false where it is not legal.
-struct Assign {
-  Config& config;
-  std::string_view text;
-
-  bool operator()(const IntegerRange& r) const {
-    int value = 0;
-    const bool legal = parse_integer(text, value) && value >= r.least && value <= r.most;
-    config.*r.member = legal ? value : config.*r.member;
-    return legal;
-  }
-  bool operator()(const IntegerChoice& c) const {
-    int value = 0;
-    const bool legal =
-        parse_integer(text, value) && std::find(c.values.begin(), c.values.end(), value) != c.values.end();
-    config.*c.member = legal ? value : config.*c.member;
-    return legal;
-  }
-  bool operator()(const Switch& s) const {
-    const bool legal = text == "true" || text == "false";
-    config.*s.member = legal ? text == "true" : config.*s.member;
-    return legal;
-  }
-  template <class Enum>
-  bool operator()(const NamedValues<Enum>& n) const {
-    const auto found = std::find(n.names.begin(), n.names.end(), text);
-    if (found == n.names.end()) {
-      return false;
-    }
-    config.*n.member = static_cast<Enum>(found - n.names.begin());
-    return true;
-  }
-};
 
 /// Sections that had another name, and the one they have now.
 struct Renamed {
@@ -219,11 +130,6 @@ const Key& find_key(std::string_view name) {
     names.push_back(key.name);
   }
   throw InputError(fmt::format("unknown configuration key '{}'; legal: {}", name, fmt::join(names, ", ")));
-}
-
-bool is_text(const Key& key) {
-  return std::holds_alternative<NamedValues<DepthInterpolator>>(key.kind) ||
-         std::holds_alternative<NamedValues<LateZ>>(key.kind);
 }
 
 std::string text_of_node(const toml::node& node, const std::string& name) {
@@ -267,21 +173,34 @@ Config config_of(const std::string& name, const Parse& parse) {
 
 }  // namespace
 
+Widths widths(const Config& config) {
+  // clang-format off
+#define NOTHING(...)
+#define PACKAGE(section, name, type, value, legal, unit, changes, help, Parameter, define) \
+  .Parameter = config.section name,
+  return {HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, NOTHING, PACKAGE)};
+#undef NOTHING
+#undef PACKAGE
+  // clang-format on
+}
+
 std::vector<ConfigKey> config_keys(const Config& config) {
   std::vector<ConfigKey> list;
   for (const Key& key : keys()) {
-    list.push_back({key.name, value_text(key, config), legal_values(key), key.unit, key.help,
-                    key.changes == Changes::kTime});
+    list.push_back({key.name, value_text(key, config), legal_text(key.legal), key.unit, key.help,
+                    key.changes == Changes::time, key.rtl});
   }
   return list;
 }
 
 void set_config(Config& config, std::string_view key, std::string_view value) {
   const Key& found = find_key(key);
-  if (!std::visit(Assign{config, value}, found.kind)) {
+  const std::optional<int> parsed = parse_value(found.legal, value);
+  if (!parsed) {
     throw InputError(
-        fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_values(found)));
+        fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_text(found.legal)));
   }
+  found.set(config, *parsed);
 }
 
 void set_config(Config& config, std::string_view assignment) {
@@ -306,23 +225,27 @@ void validate(const Config& config) {
       throw InputError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
     }
   };
-  demand(config.block_size > config.tile_size, "tile_walker.block_size", config.block_size,
-         fmt::format("larger than 'tile_walker.tile_size' ({})", config.tile_size));
-  const int quads = config.tile_size * config.tile_size / 4;
-  demand(config.quad_width <= quads, "quad_generator.quads_per_cycle", config.quad_width,
-         fmt::format("at most the quads of a tile ({})", quads));
-  demand(config.early_z_width <= config.quad_width, "early_z.quads_per_cycle", config.early_z_width,
-         fmt::format("at most 'quad_generator.quads_per_cycle' ({})", config.quad_width));
-  const int rows = config.tile_size / 2;
-  demand(config.z_parts <= rows, "z_cache.parts", config.z_parts,
+  demand(config.tile_walker.block_size > config.tile_walker.tile_size, "tile_walker.block_size",
+         config.tile_walker.block_size,
+         fmt::format("larger than 'tile_walker.tile_size' ({})", config.tile_walker.tile_size));
+  const int quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
+  demand(config.quad_generator.quads_per_cycle <= quads, "quad_generator.quads_per_cycle",
+         config.quad_generator.quads_per_cycle, fmt::format("at most the quads of a tile ({})", quads));
+  demand(config.early_z.quads_per_cycle <= config.quad_generator.quads_per_cycle, "early_z.quads_per_cycle",
+         config.early_z.quads_per_cycle,
+         fmt::format("at most 'quad_generator.quads_per_cycle' ({})", config.quad_generator.quads_per_cycle));
+  const int rows = config.tile_walker.tile_size / 2;
+  demand(config.z_cache.parts <= rows, "z_cache.parts", config.z_cache.parts,
          fmt::format("at most the rows of quads of a tile ({})", rows));
-  demand(config.z_lines >= config.z_parts * config.z_ways, "z_cache.lines", config.z_lines,
-         fmt::format("at least 'z_cache.ways' times 'z_cache.parts' ({})", config.z_parts * config.z_ways));
-  const std::string one_a_part = fmt::format("at least 'z_cache.parts' ({})", config.z_parts);
-  demand(config.z_misses_in_flight >= config.z_parts, "z_cache.misses_in_flight", config.z_misses_in_flight,
-         one_a_part);
-  demand(config.z_write_buffers >= config.z_parts, "z_cache.write_buffers", config.z_write_buffers,
-         one_a_part);
+  demand(config.z_cache.lines >= config.z_cache.parts * config.z_cache.ways, "z_cache.lines",
+         config.z_cache.lines,
+         fmt::format("at least 'z_cache.ways' times 'z_cache.parts' ({})",
+                     config.z_cache.parts * config.z_cache.ways));
+  const std::string one_a_part = fmt::format("at least 'z_cache.parts' ({})", config.z_cache.parts);
+  demand(config.z_cache.misses_in_flight >= config.z_cache.parts, "z_cache.misses_in_flight",
+         config.z_cache.misses_in_flight, one_a_part);
+  demand(config.z_cache.write_buffers >= config.z_cache.parts, "z_cache.write_buffers",
+         config.z_cache.write_buffers, one_a_part);
 }
 
 std::string to_toml(const Config& config) {
@@ -336,10 +259,10 @@ std::string to_toml(const Config& config) {
       section = in;
     }
     const std::string value = value_text(key, config);
-    text +=
-        fmt::format("# {}{} ({})\n", key.help, key.unit.empty() ? "" : ", in " + key.unit, legal_values(key));
+    text += fmt::format("# {}{} ({})\n", key.help, key.unit.empty() ? "" : ", in " + key.unit,
+                        legal_text(key.legal));
     text += fmt::format("{} = {}\n", dot == std::string::npos ? key.name : key.name.substr(dot + 1),
-                        is_text(key) ? '"' + value + '"' : value);
+                        key.legal.kind == Legal::Kind::kOneOf ? '"' + value + '"' : value);
   }
   return text;
 }

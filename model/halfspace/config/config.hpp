@@ -1,4 +1,4 @@
-/// The configuration of a modelled machine: every key with its default, legal values and help, declared once.
+/// The configuration of a modelled machine, from the table of keys.hpp: reading, checking and printing it.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "halfspace/config/keys.hpp"
+#include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 
 namespace halfspace {
@@ -17,40 +19,22 @@ enum class LateZ : std::uint8_t {
   kNoWrite,  ///< they test only
 };
 
+/// The machine: a member for each key, in a struct for each section, as keys.hpp lists and explains them:
+/// `config.setup.queue`. Time: docs/timing.md and the pages of the units say what each key means.
 struct Config {
-  int sub_pixel_bits = 8;
-  int tile_size = 8;
-  int block_size = 32;
-  bool block_level = true;
-  bool trivial_reject = true;
-  bool trivial_accept = true;
-  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
-  LateZ late_z = LateZ::kOpaque;
-
-  // Time; docs/timing.md and the pages of the units say what each means.
-  int setup_queue = 8;
-  int setup_interval = 1;
-  int setup_fifo = 24;
-  int walker_step_interval = 1;
-  int walker_fifo = 16;
-  int edge_pipe_stages = 2;
-  int edge_fifo = 4;
-  int quad_width = 4;
-  int quad_fifo = 4;
-  int early_z_width = 4;
-  int early_z_pending = 32;
-  int early_z_fifo = 16;
-  int z_lines = 128;
-  int z_ways = 4;
-  int z_parts = 1;
-  int z_misses_in_flight = 16;
-  int z_write_buffers = 4;
-  bool fast_clear = true;
-  int z_clear_tiles = 64;
-  int memory_latency = 100;
-  int memory_read_bytes = 64;
-  int memory_write_bytes = 64;
+#define BEGIN(section) struct {
+#define KEY(section, name, type, value, ...) type name = value;
+// clang-format off
+#define END(section) } section;  // NOLINT(bugprone-macro-parentheses): it is a name
+  // clang-format on
+  HALFSPACE_KEYS(BEGIN, END, KEY, KEY, KEY)
+#undef BEGIN
+#undef KEY
+#undef END
 };
+
+/// The widths of the packets of this machine.
+[[nodiscard]] Widths widths(const Config& config);
 
 /// One key as a user sees it.
 struct ConfigKey {
@@ -60,6 +44,7 @@ struct ConfigKey {
   std::string unit;     ///< empty where there is none
   std::string help;     ///< one line
   bool timing = false;  ///< changes when, never what
+  std::string rtl;      ///< Verilator's option that sets it, "-GSetupQueue"; empty where the RTL has none
 };
 
 /// Every key in the order of the reference, with its value in `config`.

@@ -4,6 +4,8 @@
 /// same text, into rtl/raster_pkg.sv (see report/raster_pkg.hpp). The names are therefore SystemVerilog's.
 #pragma once
 
+#include "halfspace/config/keys.hpp"
+
 namespace halfspace {
 
 // clang-format off
@@ -34,13 +36,14 @@ namespace halfspace {
   W(TestSamples,     4 * TestWidth,                                    "samples that are tested in a cycle")
 // clang-format on
 
-/// All widths for one choice of the parameters.
+/// All widths for one choice of the parameters, which are the PACKAGE rows of the configuration's keys.
 struct Widths {
-  int SubPixelBits = 8;  ///< 4 to 8
-  int TileSize = 8;      ///< 4, 8 or 16 pixels
-  int QuadWidth = 4;     ///< quads of a beat out of quad_generator: 1, 2, 4, 8 or 16, at most those of a tile
-  int TestWidth = 4;     ///< quads that early_z tests in a cycle, at most QuadWidth
-  int ZParts = 1;        ///< bands of rows of a tile that are lines of their own in the z cache: 1, 2 or 4
+#define NOTHING(...)
+#define PARAMETER(section, name, type, value, legal, unit, changes, help, Parameter, define) \
+  int Parameter = value;
+  HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, NOTHING, PARAMETER)
+#undef NOTHING
+#undef PARAMETER
 #define W(name, formula, meaning) int name = formula;
   HALFSPACE_WIDTHS(W)
 #undef W

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "halfspace/config/keys.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/units/link_packets.hpp"
@@ -21,17 +22,26 @@ namespace {
 struct Parameter {
   std::string_view name;
   std::string_view define;
-  std::string_view legal;
+  std::string legal;
   int Widths::*member;
 };
 
-constexpr std::array kParameters{
-    Parameter{"SubPixelBits", "HALFSPACE_SUB_PIXEL_BITS", "4..8", &Widths::SubPixelBits},
-    Parameter{"TileSize", "HALFSPACE_TILE_SIZE", "4|8|16", &Widths::TileSize},
-    Parameter{"QuadWidth", "HALFSPACE_QUAD_WIDTH", "1|2|4|8|16", &Widths::QuadWidth},
-    Parameter{"TestWidth", "HALFSPACE_TEST_WIDTH", "1|2|4|8|16", &Widths::TestWidth},
-    Parameter{"ZParts", "HALFSPACE_Z_PARTS", "1|2|4", &Widths::ZParts},
-};
+// Legal values as the package's comment writes them.
+std::string range(int least, int most) { return std::to_string(least) + ".." + std::to_string(most); }
+std::string power_of_two(int least, int most) {
+  std::string text = std::to_string(least);
+  for (int value = 2 * least; value <= most; value *= 2) {
+    text += "|" + std::to_string(value);
+  }
+  return text;
+}
+
+#define NOTHING(...)
+#define PACKAGE(section, name, type, value, legal, unit, changes, help, parameter, define) \
+  Parameter{#parameter, #define, legal, &Widths::parameter},
+const std::vector<Parameter> kParameters{HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, NOTHING, PACKAGE)};
+#undef NOTHING
+#undef PACKAGE
 
 struct WidthEntry {
   std::string_view name;
@@ -54,7 +64,7 @@ std::string_view name_of(int Widths::*member) {
 
 /// The parameter or width that is the length of an array.
 std::string length_name(int Widths::*member) {
-  const auto* entry = std::ranges::find(kParameters, member, &Parameter::member);
+  const auto entry = std::ranges::find(kParameters, member, &Parameter::member);
   return std::string(entry != kParameters.end() ? entry->name : name_of(member));
 }
 

@@ -53,7 +53,7 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     write_png(picture("shaded"), shaded_picture(frame, result, i));
     write_png(picture("depth"), depth_picture(surface));
     write_png(picture("overdraw"), overdraw_picture(surface));
-    write_png(picture("tiles"), tile_picture(surface, recorder.decisions[i], config.tile_size));
+    write_png(picture("tiles"), tile_picture(surface, recorder.decisions[i], config.tile_walker.tile_size));
     write_png(picture("quads"), quad_picture(surface, recorder.lanes[i]));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);

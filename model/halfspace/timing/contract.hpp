@@ -18,7 +18,7 @@ inline constexpr int kLookupLatency = 12;
 inline constexpr int kTestLatency = 2;
 
 /// Of the edge evaluator: its pipeline and the output register.
-inline int edge_latency(const Config& config) { return config.edge_pipe_stages + 1; }
+inline int edge_latency(const Config& config) { return config.edge_evaluator.pipe_stages + 1; }
 
 /// Beats of a burst of `quads` on a link that is `width` quads wide.
 constexpr int beats(int quads, int width) { return (quads + width - 1) / width; }
@@ -28,8 +28,8 @@ constexpr int transfer_cycles(int bytes, int bytes_per_cycle) { return std::max(
 
 /// Cycles of a fast clear.
 inline int fast_clear_cycles(std::uint32_t tiles, const Config& config) {
-  const auto per_cycle = static_cast<std::uint32_t>(config.z_clear_tiles);
-  const int sets = config.z_lines / (config.z_ways * config.z_parts);
+  const auto per_cycle = static_cast<std::uint32_t>(config.z_cache.clear_tiles);
+  const int sets = config.z_cache.lines / (config.z_cache.ways * config.z_cache.parts);
   return std::max(static_cast<int>((tiles + per_cycle - 1) / per_cycle), sets);
 }
 

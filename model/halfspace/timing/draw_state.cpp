@@ -25,26 +25,26 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
 }
 
 WalkerConfig walker_config(const Config& config) {
-  return {.sub_pixel_bits = config.sub_pixel_bits,
-          .block_size = config.block_size,
-          .block_level = config.block_level,
-          .trivial_reject = config.trivial_reject,
-          .trivial_accept = config.trivial_accept};
+  return {.sub_pixel_bits = config.raster.sub_pixel_bits,
+          .block_size = config.tile_walker.block_size,
+          .block_level = config.tile_walker.block_level,
+          .trivial_reject = config.tile_walker.trivial_reject,
+          .trivial_accept = config.tile_walker.trivial_accept};
 }
 
 ZCacheShape z_cache_shape(const Config& config) {
-  return {.lines = config.z_lines, .ways = config.z_ways, .parts = config.z_parts};
+  return {.lines = config.z_cache.lines, .ways = config.z_cache.ways, .parts = config.z_cache.parts};
 }
 
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
-  return {.sub_pixel_bits = config.sub_pixel_bits,
+  return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
           .bottom_left_rule = draw.has(Flag::kBottomLeftRule),
           .bounds = drawable_rect(draw.scissor, target),
           .depth_format = format,
-          .interpolator = config.interpolator};
+          .interpolator = config.depth.interpolator};
 }
 
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config) {
@@ -54,8 +54,8 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
       .write = test && draw.has(Flag::kDepthWrite) && (config.late_z == LateZ::kOpaque || !tests_late(draw)),
       .func = draw.depth_func,
       .format = format,
-      .interpolator = config.interpolator,
-      .sub_pixel_bits = config.sub_pixel_bits};
+      .interpolator = config.depth.interpolator,
+      .sub_pixel_bits = config.raster.sub_pixel_bits};
 }
 
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
@@ -114,7 +114,7 @@ std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const
   for (const Surface& surface : surfaces) {
     const auto tiles_x = static_cast<std::uint32_t>(surface.codes.tiles_x());
     const auto tiles = tiles_x * static_cast<std::uint32_t>(surface.codes.tiles_y());
-    const int samples = config.tile_size * config.tile_size / config.z_parts;
+    const int samples = config.tile_walker.tile_size * config.tile_walker.tile_size / config.z_cache.parts;
     places.push_back({.first_tile = first,
                       .tiles_x = tiles_x,
                       .tiles = tiles,
@@ -131,14 +131,15 @@ std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheSh
 }
 
 bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config) {
-  return config.fast_clear && rect.x_first == 0 && rect.y_first == 0 &&
+  return config.z_cache.fast_clear && rect.x_first == 0 && rect.y_first == 0 &&
          rect.x_last == surface.codes.width() - 1 && rect.y_last == surface.codes.height() - 1;
 }
 
 DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config) {
   const std::uint32_t z = format == DepthFormat::kFloat32 ? code : code << vertex_depth_fraction(format);
   const auto vertex = [&](int x, int y) {
-    return ScreenVertex{.x = x << config.sub_pixel_bits, .y = y << config.sub_pixel_bits, .z = z};
+    return ScreenVertex{
+        .x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
   };
   const ScreenVertex top_left = vertex(rect.x_first, rect.y_first);
   const ScreenVertex top_right = vertex(rect.x_last + 1, rect.y_first);
@@ -146,16 +147,16 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
   const ScreenVertex bottom_right = vertex(rect.x_last + 1, rect.y_last + 1);
   return {.triangle = {ScreenTriangle{.v = {top_left, top_right, bottom_left}, .triangle = 0},
                        ScreenTriangle{.v = {top_right, bottom_right, bottom_left}, .triangle = 1}},
-          .setup = {.sub_pixel_bits = config.sub_pixel_bits,
+          .setup = {.sub_pixel_bits = config.raster.sub_pixel_bits,
                     .bounds = rect,
                     .depth_format = format,
-                    .interpolator = config.interpolator},
+                    .interpolator = config.depth.interpolator},
           .early_z = {.test = true,
                       .write = true,
                       .func = DepthFunc::kAlways,
                       .format = format,
-                      .interpolator = config.interpolator,
-                      .sub_pixel_bits = config.sub_pixel_bits}};
+                      .interpolator = config.depth.interpolator,
+                      .sub_pixel_bits = config.raster.sub_pixel_bits}};
 }
 
 }  // namespace halfspace

@@ -120,7 +120,7 @@ class Pipeline {
     if (record_jobs_) {
       observer_->tile_job(job);
     }
-    const Coverage coverage = edge_evaluator<TileSize>(job, config_.sub_pixel_bits);
+    const Coverage coverage = edge_evaluator<TileSize>(job, config_.raster.sub_pixel_bits);
     const bool covered = any(coverage.mask);
     tally(*stats_, job, work, covered);
     if (covered) {
@@ -200,8 +200,8 @@ class Pipeline {
     if (command.has(Flag::kNotFilled)) {
       ++result_.draws_not_filled;
     } else {
-      draw_triangles(FrontEnd(frame_, command, format, config_.sub_pixel_bits), command.index_count / 3,
-                     setup_state(command, target, format, config_));
+      draw_triangles(FrontEnd(frame_, command, format, config_.raster.sub_pixel_bits),
+                     command.index_count / 3, setup_state(command, target, format, config_));
     }
     first_triangle_ += command.index_count / 3;
     result_.counters += draw.counters;
@@ -274,8 +274,9 @@ class Pipeline {
       const ZSurface& place = places_[surface_number_];
       work.tile_x = burst.coverage.tile_x;
       work.tile_y = burst.coverage.tile_y;
-      work.touched = parts_of_mask<TileSize>(burst.coverage.mask, config_.z_parts);
-      work.written = early_z_.write ? parts_of_mask<TileSize>(passed, config_.z_parts) : std::uint8_t{0};
+      work.touched = parts_of_mask<TileSize>(burst.coverage.mask, config_.z_cache.parts);
+      work.written =
+          early_z_.write ? parts_of_mask<TileSize>(passed, config_.z_cache.parts) : std::uint8_t{0};
       misses = z_cache_.access(place, work.tile_x, work.tile_y, work.touched, work.written);
       tally(stats_->early_z, std::popcount(work.touched), misses);
       work.misses = misses.parts();
@@ -364,7 +365,7 @@ class Pipeline {
 template <class Clock>
 FrameResult run_pipeline(const Frame& frame, const Config& config, bool keep_visible,
                          PacketObserver* observer, Clock& clock) {
-  switch (config.tile_size) {
+  switch (config.tile_walker.tile_size) {
     case 4:
       return Pipeline<4, Clock>(frame, config, keep_visible, observer, clock).run();
     case 16:

@@ -20,29 +20,29 @@ AnalyticDraw analytic_draw(const DrawWork& work, const Config& config) {
     const std::uint64_t count = work.tiles[quads];
     const int q = static_cast<int>(quads);
     jobs += count;
-    quad += count * static_cast<std::uint64_t>(std::max(1, beats(q, config.quad_width)));
-    test += count * static_cast<std::uint64_t>(beats(q, config.early_z_width));
+    quad += count * static_cast<std::uint64_t>(std::max(1, beats(q, config.quad_generator.quads_per_cycle)));
+    test += count * static_cast<std::uint64_t>(beats(q, config.early_z.quads_per_cycle));
   }
   std::uint64_t fetches = 0;
   std::uint64_t read = 0;
   std::uint64_t write = 0;
   for (std::size_t i = 0; i < work.fetched.size(); ++i) {
     fetches += work.fetched[i];
-    read += work.fetched[i] * static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_read_bytes));
+    read += work.fetched[i] * static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory.read_bytes));
     write +=
-        work.written_back[i] * static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_write_bytes));
+        work.written_back[i] * static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory.write_bytes));
   }
   // a fill buffer is taken from the request until the line goes into the cache
   const std::uint64_t a_fetch =
-      static_cast<std::uint64_t>(config.memory_latency) + (fetches == 0 ? 0 : read / fetches);
+      static_cast<std::uint64_t>(config.memory.latency) + (fetches == 0 ? 0 : read / fetches);
   const std::array<std::uint64_t, kBounds> cycles{
-      std::max(work.triangles, work.drawn * static_cast<std::uint64_t>(config.setup_interval)),
-      work.steps * static_cast<std::uint64_t>(config.walker_step_interval),
+      std::max(work.triangles, work.drawn * static_cast<std::uint64_t>(config.setup.interval)),
+      work.steps * static_cast<std::uint64_t>(config.tile_walker.step_interval),
       jobs,
       quad,
       test,
       read,
-      fetches * a_fetch / static_cast<std::uint64_t>(config.z_misses_in_flight),
+      fetches * a_fetch / static_cast<std::uint64_t>(config.z_cache.misses_in_flight),
       write};
   const auto most = std::max_element(cycles.begin(), cycles.end());
   return {.cycles = *most, .bound = static_cast<Bound>(most - cycles.begin())};
@@ -61,9 +61,9 @@ AnalyticFrame analytic_frame(const FrameWork& work, const Config& config) {
   std::uint64_t flush = 0;
   for (const ZFlush& line : work.flush) {
     flush +=
-        static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(line.bytes), config.memory_write_bytes));
+        static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(line.bytes), config.memory.write_bytes));
   }
-  frame.cycles += std::max(flush, static_cast<std::uint64_t>(config.z_lines));
+  frame.cycles += std::max(flush, static_cast<std::uint64_t>(config.z_cache.lines));
   return frame;
 }
 

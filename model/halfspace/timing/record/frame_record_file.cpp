@@ -122,7 +122,7 @@ void check_surfaces(const Reader& reader, const FrameRecord& record) {
 
 void check_access(const Reader& reader, const FrameRecord& record, const RecordedSurface& surface,
                   const RecordedAccess& access) {
-  const unsigned bands = (1u << recorded_bands(record.config.tile_size)) - 1;
+  const unsigned bands = (1u << recorded_bands(record.config.tile_walker.tile_size)) - 1;
   if (access.tile_x() >= surface.tiles_x || access.tile_y() >= surface.tiles / surface.tiles_x) {
     reader.fail(fmt::format("a burst in tile ({}, {}) of a surface of {} x {} tiles", access.tile_x(),
                             access.tile_y(), surface.tiles_x, surface.tiles / surface.tiles_x));
@@ -137,7 +137,7 @@ void check_access(const Reader& reader, const FrameRecord& record, const Recorde
 /// Everything the replay relies on: that lists are as long as others say, and numbers in range.
 void check(const Reader& reader, const FrameRecord& record) {
   check_surfaces(reader, record);
-  const int most_quads = record.config.tile_size * record.config.tile_size / 4;
+  const int most_quads = record.config.tile_walker.tile_size * record.config.tile_walker.tile_size / 4;
   std::size_t triangle = 0;
   std::size_t job = 0;
   std::size_t access = 0;

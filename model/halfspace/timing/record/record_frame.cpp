@@ -84,7 +84,7 @@ FrameRecord record_frame(const Frame& frame, const Config& config, PacketObserve
   FrameRecord record;
   record.name = frame.name;
   record.config = config;
-  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_size, false);
+  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_walker.tile_size, false);
   for (const ZSurface& place : place_surfaces(surfaces, config)) {
     const Surface& surface = surfaces[record.surfaces.size()];
     record.surfaces.push_back({.tiles_x = place.tiles_x,
@@ -92,9 +92,9 @@ FrameRecord record_frame(const Frame& frame, const Config& config, PacketObserve
                                .sample_bytes = static_cast<std::uint32_t>(sample_bytes(surface.format))});
   }
   Config banded = config;  // so that the traversal tells all bands apart
-  banded.z_parts = recorded_bands(config.tile_size);
-  banded.z_lines = banded.z_parts;
-  banded.z_ways = 1;
+  banded.z_cache.parts = recorded_bands(config.tile_walker.tile_size);
+  banded.z_cache.lines = banded.z_cache.parts;
+  banded.z_cache.ways = 1;
   RecordingClock clock(record, plan_segments(frame, config, surfaces));
   run_pipeline(frame, banded, false, observer, clock);
   return record;

@@ -26,7 +26,7 @@ RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Co
         const std::uint64_t before = result.draw_end.empty() ? 0 : result.draw_end.back();
         result.draw_end.push_back(bursts ? c.sink_next() - 1 : before);
       });
-  result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_lines));
+  result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_cache.lines));
   return result;
 }
 
@@ -123,7 +123,7 @@ std::uint64_t longest_time(const FrameWork& work, const Config& config) {
   for (const DrawWork& draw : work.draws) {
     sum += draw;
   }
-  std::uint64_t time = static_cast<std::uint64_t>(config.z_lines) + 64;
+  std::uint64_t time = static_cast<std::uint64_t>(config.z_cache.lines) + 64;
   for (const std::uint32_t tiles : work.fast_clears) {
     time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));
   }

@@ -236,7 +236,7 @@ void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<cons
         }
       });
   // lanes share the shape of the z cache, so the number of its lines too
-  core.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_lines)).store(cycles.data());
+  core.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_cache.lines)).store(cycles.data());
   for (std::size_t i = 0; i < configs.size(); ++i) {
     results[i].cycles = cycles[i];
   }

@@ -18,7 +18,8 @@ std::uint8_t fold(std::uint8_t bands, int band_count, int parts) {
 std::vector<ZSurface> place(const FrameRecord& record, int parts) {
   std::vector<ZSurface> places;
   std::uint32_t first = 0;
-  const auto samples = static_cast<std::uint32_t>(record.config.tile_size * record.config.tile_size / parts);
+  const auto samples = static_cast<std::uint32_t>(record.config.tile_walker.tile_size *
+                                                  record.config.tile_walker.tile_size / parts);
   for (const RecordedSurface& surface : record.surfaces) {
     places.push_back({.first_tile = first,
                       .tiles_x = surface.tiles_x,
@@ -36,7 +37,7 @@ ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
   const std::vector<ZSurface> places = place(record, shape.parts);
   trace.memory_lines = memory_lines(places, shape);
   ZCache cache(shape, trace.memory_lines);
-  const int bands = recorded_bands(record.config.tile_size);
+  const int bands = recorded_bands(record.config.tile_walker.tile_size);
   std::array<std::uint8_t, 16> folded{};
   for (std::size_t i = 0; i < folded.size(); ++i) {
     folded[i] = fold(static_cast<std::uint8_t>(i), bands, shape.parts);

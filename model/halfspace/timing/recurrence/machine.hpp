@@ -53,25 +53,29 @@ struct Machine {
 };
 
 inline std::array<int, kFifos> capacities(const Config& config) {
-  return {config.setup_queue,  config.setup_fifo,         config.walker_fifo,
-          config.edge_fifo,    config.quad_fifo,          config.early_z_pending,
-          config.early_z_fifo, config.z_misses_in_flight, config.z_write_buffers};
+  return {config.setup.queue,          config.setup.fifo,
+          config.tile_walker.fifo,     config.edge_evaluator.fifo,
+          config.quad_generator.fifo,  config.early_z.pending,
+          config.early_z.fifo,         config.z_cache.misses_in_flight,
+          config.z_cache.write_buffers};
 }
 
 inline Machine<std::uint64_t> machine(const Config& config) {
   Machine<std::uint64_t> m{};
   for (std::size_t quads = 0; quads <= kMostQuads; ++quads) {
-    m.quad_beats[quads] = static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.quad_width));
-    m.test_beats[quads] = static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.early_z_width));
+    m.quad_beats[quads] =
+        static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.quad_generator.quads_per_cycle));
+    m.test_beats[quads] =
+        static_cast<std::uint64_t>(beats(static_cast<int>(quads), config.early_z.quads_per_cycle));
   }
   for (std::size_t i = 0; i <= kMostLineBytesLog2; ++i) {
-    m.read_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_read_bytes));
-    m.write_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory_write_bytes));
+    m.read_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory.read_bytes));
+    m.write_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory.write_bytes));
   }
-  m.setup_interval = static_cast<std::uint64_t>(config.setup_interval);
-  m.step_interval = static_cast<std::uint64_t>(config.walker_step_interval);
+  m.setup_interval = static_cast<std::uint64_t>(config.setup.interval);
+  m.step_interval = static_cast<std::uint64_t>(config.tile_walker.step_interval);
   m.edge_latency = static_cast<std::uint64_t>(edge_latency(config));
-  m.memory_latency = static_cast<std::uint64_t>(config.memory_latency);
+  m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
   return m;
 }
 

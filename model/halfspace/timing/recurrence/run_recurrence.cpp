@@ -26,14 +26,14 @@ class RecurrenceClock {
   void job(const JobWork& work) { core_.job(work); }
   void walked(std::uint32_t steps) { core_.walked(steps); }
   [[nodiscard]] std::uint64_t quad_cycle(int quad) const {
-    return core_.sink_start() + static_cast<std::uint64_t>(quad / config_.early_z_width);
+    return core_.sink_start() + static_cast<std::uint64_t>(quad / config_.early_z.quads_per_cycle);
   }
   void fast_clear(std::uint32_t tiles) {
     core_.fast_clear(static_cast<std::uint64_t>(fast_clear_cycles(tiles, config_)));
   }
   void flush(const std::vector<ZFlush>& lines) {
     probe_.drained();
-    cycles_ = core_.flush(lines, static_cast<std::uint32_t>(config_.z_lines));
+    cycles_ = core_.flush(lines, static_cast<std::uint32_t>(config_.z_cache.lines));
   }
 
   FrameCycles finish() { return probe_.finish(cycles_); }

@@ -14,11 +14,12 @@ static_assert(std::endian::native == std::endian::little,
 
 LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surfaces,
                        const std::vector<ZSurface>& places)
-    : parts_(config.z_parts),
-      samples_(static_cast<std::uint32_t>(config.tile_size * config.tile_size / config.z_parts)),
-      latency_(static_cast<std::uint64_t>(config.memory_latency)),
-      read_bytes_(static_cast<std::uint32_t>(config.memory_read_bytes)),
-      write_bytes_(static_cast<std::uint32_t>(config.memory_write_bytes)),
+    : parts_(config.z_cache.parts),
+      samples_(static_cast<std::uint32_t>(config.tile_walker.tile_size * config.tile_walker.tile_size /
+                                          config.z_cache.parts)),
+      latency_(static_cast<std::uint64_t>(config.memory.latency)),
+      read_bytes_(static_cast<std::uint32_t>(config.memory.read_bytes)),
+      write_bytes_(static_cast<std::uint32_t>(config.memory.write_bytes)),
       stride_(std::size_t{4} * samples_) {
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     bytes_of_line_.insert(bytes_of_line_.end(), places[i].tiles * static_cast<std::uint32_t>(parts_),

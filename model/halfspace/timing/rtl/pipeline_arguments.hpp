@@ -7,17 +7,15 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/numerics/widths.hpp"
 
 namespace halfspace::rtl {
 
 /// Tiles of all depth surfaces that the verilated pipelines have flags for.
 inline constexpr std::uint32_t kMemoryTiles = 65536;
 
-[[nodiscard]] Widths widths(const Config& config);
-
-/// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: every key that the RTL knows. The same arguments
-/// mean the same RTL. Throws InputError where there is no RTL for the configuration.
+/// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: the defines in the order of the keys, the
+/// parameters in the order of raster_pipeline.sv, one for every key that the RTL knows; then MemoryTiles. The
+/// same arguments mean the same RTL. Throws InputError where there is no RTL for the configuration.
 [[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& config);
 
 }  // namespace halfspace::rtl

@@ -92,15 +92,15 @@ class RtlRun {
         coverage_check_("edge_evaluator", widths_, report),
         beat_check_("quad_generator", widths_, report),
         tested_check_("early_z", widths_, report),
-        longest_rest_(kLongestRest + 4 * static_cast<Cycle>(config.memory_latency)) {
-    result_.surfaces = make_surfaces(frame, config.tile_size, keep_visible);
+        longest_rest_(kLongestRest + 4 * static_cast<Cycle>(config.memory.latency)) {
+    result_.surfaces = make_surfaces(frame, config.tile_walker.tile_size, keep_visible);
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     const std::uint32_t lines = memory_lines(places_, shape);
-    if (lines / static_cast<std::uint32_t>(config.z_parts) > kMemoryTiles) {
+    if (lines / static_cast<std::uint32_t>(config.z_cache.parts) > kMemoryTiles) {
       throw InputError(fmt::format(
           "{}: its depth surfaces have {} tiles of {}x{}; legal for the RTL: at most {}", frame.name,
-          lines / static_cast<std::uint32_t>(config.z_parts), TileSize, TileSize, kMemoryTiles));
+          lines / static_cast<std::uint32_t>(config.z_cache.parts), TileSize, TileSize, kMemoryTiles));
     }
     z_cache_ = ZCache(shape, lines);
     memory_.emplace(config, result_.surfaces, places_);
@@ -109,7 +109,7 @@ class RtlRun {
     in_.triangle.resize(words_for(packed_bits<ScreenTrianglePacket>(widths_)));
     in_.state.resize(words_for(packed_bits<DrawStatePacket>(widths_)));
     in_.fill.resize(
-        words_for(8 * std::min(config.memory_read_bytes, TileSize * TileSize * 4 / config.z_parts)));
+        words_for(8 * std::min(config.memory.read_bytes, TileSize * TileSize * 4 / config.z_cache.parts)));
     if (run.times != nullptr) {
       *run.times = {};
     }
@@ -431,7 +431,7 @@ class RtlRun {
     ExpectedCoverage& next = coverages_.emplace_back();
     next.draw = expected.draw;
     next.triangle = std::move(expected.triangle);
-    next.coverage = edge_evaluator<TileSize>(expected.job, config_.sub_pixel_bits);
+    next.coverage = edge_evaluator<TileSize>(expected.job, config_.raster.sub_pixel_bits);
     tally(expected.draw->counters, expected.job, expected.work, any(next.coverage.mask));
   }
 
@@ -486,9 +486,9 @@ class RtlRun {
       interpolate_tile<TileSize>(*burst.triangle, burst.burst, draw.early_z, codes);
     }
     if (touches_depth(draw.early_z)) {
-      const std::uint8_t touched = parts_of_mask<TileSize>(coverage.mask, config_.z_parts);
+      const std::uint8_t touched = parts_of_mask<TileSize>(coverage.mask, config_.z_cache.parts);
       const std::uint8_t written =
-          draw.early_z.write ? parts_of_mask<TileSize>(passed, config_.z_parts) : std::uint8_t{0};
+          draw.early_z.write ? parts_of_mask<TileSize>(passed, config_.z_cache.parts) : std::uint8_t{0};
       const ZMisses misses =
           z_cache_.access(places_[draw.surface], coverage.tile_x, coverage.tile_y, touched, written);
       tally(draw.counters.early_z, std::popcount(touched), misses);
@@ -609,7 +609,7 @@ class RtlRun {
     ++report_.compared;
     const std::uint32_t bytes = memory_->line_bytes(line);
     if (line != want ||
-        half != (bytes < 4u * TileSize * TileSize / static_cast<std::uint32_t>(config_.z_parts))) {
+        half != (bytes < 4u * TileSize * TileSize / static_cast<std::uint32_t>(config_.z_cache.parts))) {
       report_.differ(fmt::format("{} in cycle {}: model line {}, RTL line {} ({})", what, cycle_, want, line,
                                  half ? "2 bytes a sample" : "4 bytes a sample"));
     }
@@ -629,7 +629,7 @@ class RtlRun {
     const std::uint32_t bytes = memory_->line_bytes(out_.read_line);
     meter_.transfer(
         &CycleStats::read_busy, lookup_draw_,
-        static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(bytes), config_.memory_read_bytes)));
+        static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(bytes), config_.memory.read_bytes)));
   }
 
   void write() {
@@ -811,7 +811,7 @@ FrameResult run_rtl(const Frame& frame, const Config& config, bool keep_visible,
       throw InputError(fmt::format("stalls at '{}': legal for the RTL: source, sink", kStallPointName[i]));
     }
   }
-  switch (config.tile_size) {
+  switch (config.tile_walker.tile_size) {
     case 4:
       return RtlRun<4>(frame, config, keep_visible, observer, run, pipeline, report).run();
     case 16:

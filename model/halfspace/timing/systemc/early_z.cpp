@@ -17,14 +17,14 @@ EarlyZ::EarlyZ(const sc_core::sc_module_name& name, RunState& run, std::uint64_t
       lookup_meter_(Stage::kZLookup, run),
       test_meter_(Stage::kEarlyZ, run),
       pending_("early_z_pending", run,
-               {.capacity = run.config.early_z_pending,
+               {.capacity = run.config.early_z.pending,
                 .latency = kLookupLatency,
                 .statistics = Link::kEarlyZPending,
                 .stalls = {}}),
       fills_("fill_buffers", run,
-             {.capacity = run.config.z_misses_in_flight, .latency = 1, .statistics = {}, .stalls = {}}),
+             {.capacity = run.config.z_cache.misses_in_flight, .latency = 1, .statistics = {}, .stalls = {}}),
       writes_("write_buffer", run,
-              {.capacity = run.config.z_write_buffers, .latency = 1, .statistics = {}, .stalls = {}}) {
+              {.capacity = run.config.z_cache.write_buffers, .latency = 1, .statistics = {}, .stalls = {}}) {
   SC_THREAD(look_up_bursts);
   SC_THREAD(test_bursts);
   set_stack_size(kStackBytes);
@@ -56,7 +56,8 @@ void EarlyZ::begin_frame() {
 
 std::uint32_t EarlyZ::line_of(const PendingToken& token, int part) const {
   const Coverage& coverage = token.burst.burst.coverage;
-  return run_.places[token.work->surface].line(coverage.tile_x, coverage.tile_y, run_.config.z_parts, part);
+  return run_.places[token.work->surface].line(coverage.tile_x, coverage.tile_y, run_.config.z_cache.parts,
+                                               part);
 }
 
 // Lookup.
@@ -73,7 +74,8 @@ void EarlyZ::look_up_bursts() {
       lookup_meter_.stalled(stall::kLookupPendingFull, at);
       run_.clock.wait_until(at);
 
-      const auto width = static_cast<Cycle>(beats(in->front().quads, run_.config.quad_width));
+      const auto width =
+          static_cast<Cycle>(beats(in->front().quads, run_.config.quad_generator.quads_per_cycle));
       next_lookup_ = at + width;
       looked_up_.burst = in->take(next_lookup_ - 1);
       looked_up_.work = looked_up_.burst.work;
@@ -93,8 +95,8 @@ void EarlyZ::look_up_bursts() {
 void EarlyZ::look_up(Cycle at) {
   PendingToken& token = looked_up_;
   const Coverage& coverage = token.burst.burst.coverage;
-  const int parts = run_.config.z_parts;
-  token.touched = with_tile_size(run_.config.tile_size,
+  const int parts = run_.config.z_cache.parts;
+  token.touched = with_tile_size(run_.config.tile_walker.tile_size,
                                  [&](auto size) { return parts_of_mask<size()>(coverage.mask, parts); });
   for (int part = 0; part < parts; ++part) {
     if ((token.touched >> part & 1) == 0) {
@@ -158,7 +160,7 @@ Cycle EarlyZ::request(std::uint32_t line) {
   sc_core::sc_time delay;
   access(tlm::TLM_READ_COMMAND, line, read_bytes_, delay);
   const Cycle filled = run_.clock.after(delay);
-  count_transfer(&CycleStats::read_busy, line, run_.config.memory_read_bytes, looked_up_.work);
+  count_transfer(&CycleStats::read_busy, line, run_.config.memory.read_bytes, looked_up_.work);
   FillToken fill{.work = looked_up_.work, .codes = {}};
   layout_.unpack(line, read_bytes_, fill.codes);
   fills_.put(std::move(fill), filled);
@@ -185,13 +187,13 @@ void EarlyZ::test_bursts() {
       test_meter_.stalled(stall::kTestNoCredit, at);
       run_.clock.wait_until(at);
 
-      next_test_ = at + static_cast<Cycle>(beats(head.burst.quads, run_.config.early_z_width));
+      next_test_ = at + static_cast<Cycle>(beats(head.burst.quads, run_.config.early_z.quads_per_cycle));
       PendingToken token = pending_.take(next_test_ - 1);
       run_.record(&PacketTimes::b, at);
       test_meter_.busy(next_test_);
       move_lines(token, at);
       TestedToken tested;
-      with_tile_size(run_.config.tile_size, [&](auto size) { test<size()>(token, tested); });
+      with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) { test<size()>(token, tested); });
       out->use_credit();
       out->put(std::move(tested), at);
     }
@@ -202,7 +204,7 @@ void EarlyZ::test_bursts() {
 /// lookup learns of it only when the data moves.
 int EarlyZ::replace_lines(const PendingToken& token) {
   int dirty = 0;
-  for (int part = 0; part < run_.config.z_parts; ++part) {
+  for (int part = 0; part < run_.config.z_cache.parts; ++part) {
     if ((token.missed >> part & 1) != 0) {
       const auto i = static_cast<std::size_t>(part);
       const std::uint32_t line = line_of(token, part);
@@ -218,7 +220,7 @@ void EarlyZ::move_lines(const PendingToken& token, Cycle at) {
     return;
   }
   ZMisses misses;
-  for (int part = 0; part < run_.config.z_parts; ++part) {
+  for (int part = 0; part < run_.config.z_cache.parts; ++part) {
     if ((token.missed >> part & 1) == 0) {
       continue;
     }
@@ -262,7 +264,7 @@ void EarlyZ::test(PendingToken& token, TestedToken& tested) {
   DrawWork& work = *token.work;
   const QuadBurst& burst = token.burst.burst;
   const SetupTriangle& triangle = *token.burst.triangle;
-  const int parts = run_.config.z_parts;
+  const int parts = run_.config.z_cache.parts;
   const std::size_t samples = static_cast<std::size_t>(TileSize * TileSize / parts);
   TileCodes<TileSize> stored{};
   TileCodes<TileSize> codes{};
@@ -306,7 +308,7 @@ void EarlyZ::send(DrawWork* work, std::uint32_t line, const std::vector<std::uin
   ++writes_sent_;
   writes_.use_credit();
   writes_.put({.work = work, .line = line, .number = writes_sent_, .codes = codes}, at);
-  count_transfer(&CycleStats::write_busy, line, run_.config.memory_write_bytes, work);
+  count_transfer(&CycleStats::write_busy, line, run_.config.memory.write_bytes, work);
 }
 
 void EarlyZ::write_back() {
@@ -344,7 +346,7 @@ Cycle EarlyZ::flush(Cycle begin) {
     ++run_.result.flushed_lines;
     run_.result.flushed_bytes += bytes;
   });
-  const Cycle scanned = next + (static_cast<std::uint32_t>(run_.config.z_lines) - next_slot);
+  const Cycle scanned = next + (static_cast<std::uint32_t>(run_.config.z_cache.lines) - next_slot);
   return std::max(scanned, wait_until_written()) - 1;
 }
 
@@ -356,7 +358,7 @@ Cycle EarlyZ::wait_until_written() {
 }
 
 void EarlyZ::clear(std::uint32_t surface, std::uint32_t code) {
-  const auto parts = static_cast<std::uint32_t>(run_.config.z_parts);
+  const auto parts = static_cast<std::uint32_t>(run_.config.z_cache.parts);
   const std::uint32_t first = run_.places[surface].first_tile * parts;
   const std::uint32_t last = first + run_.places[surface].tiles * parts - 1;
   tags_.drop(first, last);
@@ -409,7 +411,7 @@ void EarlyZ::count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t li
 
 void EarlyZ::read_surface(std::uint32_t surface, TiledImage<std::uint32_t>& codes) {
   const ZSurface& place = run_.places[surface];
-  const int parts = run_.config.z_parts;
+  const int parts = run_.config.z_cache.parts;
   std::vector<std::uint32_t> line_codes;
   for (std::uint32_t tile = 0; tile < place.tiles; ++tile) {
     const std::uint32_t x = tile % place.tiles_x;

@@ -30,8 +30,8 @@ void EdgeEvaluator::evaluate() {
       run_.record(&PacketTimes::e, at);
       meter_.busy(at + 1);
       next_ = at + 1;
-      const Coverage coverage = with_tile_size(run_.config.tile_size, [&](auto size) {
-        return halfspace::edge_evaluator<size()>(token.job, run_.config.sub_pixel_bits);
+      const Coverage coverage = with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
+        return halfspace::edge_evaluator<size()>(token.job, run_.config.raster.sub_pixel_bits);
       });
       tally(token.work->counters, token.job, token.tile_work, any(coverage.mask));
       out->use_credit();

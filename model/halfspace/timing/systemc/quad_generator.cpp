@@ -36,14 +36,14 @@ void QuadGenerator::generate() {
         continue;
       }
       BurstToken burst{.work = token.work, .triangle = std::move(token.triangle), .burst = {}, .quads = 0};
-      with_tile_size(run_.config.tile_size, [&](auto size) {
+      with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
         burst.burst = halfspace::quad_generator<size()>(token.coverage);
         burst.quads = popcount(burst.burst.quads);
         tally<size()>(token.work->counters.quad_generator, burst.burst,
                       static_cast<std::uint64_t>(burst.quads),
                       static_cast<std::uint64_t>(popcount(token.coverage.mask)));
       });
-      next_ = at + static_cast<Cycle>(beats(burst.quads, run_.config.quad_width));
+      next_ = at + static_cast<Cycle>(beats(burst.quads, run_.config.quad_generator.quads_per_cycle));
       meter_.busy(next_);
       out->use_credit();
       out->put(std::move(burst), at);

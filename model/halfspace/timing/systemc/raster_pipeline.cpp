@@ -15,8 +15,8 @@ constexpr int kTraceBits = 8;
 }  // namespace
 
 std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
-  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_size, false);
-  return DepthLayout(surfaces, place_surfaces(surfaces, config), config.z_parts, 0).end();
+  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_walker.tile_size, false);
+  return DepthLayout(surfaces, place_surfaces(surfaces, config), config.z_cache.parts, 0).end();
 }
 
 RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base)
@@ -25,27 +25,27 @@ RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config
       memory("memory"),
       run_(config),
       setup_link_("setup_link", run_,
-                  {.capacity = config.setup_fifo,
+                  {.capacity = config.setup.fifo,
                    .latency = kSetupDivideLatency,
                    .statistics = Link::kSetup,
                    .stalls = StallPoint::kSetup}),
       walker_link_("tile_walker_link", run_,
-                   {.capacity = config.walker_fifo,
+                   {.capacity = config.tile_walker.fifo,
                     .latency = kWalkerLatency,
                     .statistics = Link::kTileWalker,
                     .stalls = StallPoint::kTileWalker}),
       edge_link_("edge_evaluator_link", run_,
-                 {.capacity = config.edge_fifo,
+                 {.capacity = config.edge_evaluator.fifo,
                   .latency = edge_latency(config),
                   .statistics = Link::kEdgeEvaluator,
                   .stalls = StallPoint::kEdgeEvaluator}),
       quad_link_("quad_generator_link", run_,
-                 {.capacity = config.quad_fifo,
+                 {.capacity = config.quad_generator.fifo,
                   .latency = kQuadLatency,
                   .statistics = Link::kQuadGenerator,
                   .stalls = StallPoint::kQuadGenerator}),
       early_z_link_("early_z_link", run_,
-                    {.capacity = config.early_z_fifo,
+                    {.capacity = config.early_z.fifo,
                      .latency = kTestLatency,
                      .statistics = Link::kEarlyZ,
                      .stalls = StallPoint::kSink}),
@@ -105,7 +105,7 @@ void RasterPipeline::trace_to(sc_core::sc_trace_file* file) {
 void RasterPipeline::begin_frame() {
   run_.clock.restart();
   run_.result = {};
-  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_size, keep_visible_);
+  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_walker.tile_size, keep_visible_);
   run_.places = place_surfaces(run_.result.surfaces, run_.config);
   run_.works.clear();
   run_.cycles = {};

@@ -13,7 +13,7 @@ Setup::Setup(const sc_core::sc_module_name& name, RunState& run)
       run_(run),
       meter_(Stage::kSetup, run),
       queue_("setup_queue", run,
-             {.capacity = run.config.setup_queue,
+             {.capacity = run.config.setup.queue,
               .latency = kSetupCullLatency,
               .statistics = Link::kSetupQueue,
               .stalls = {}}) {
@@ -37,7 +37,7 @@ Cycle Setup::take(const QueuedTriangle& triangle, Cycle arrive) {
 
 void Setup::decide() {
   run_.guard([&] {
-    const auto interval = static_cast<Cycle>(run_.config.setup_interval);
+    const auto interval = static_cast<Cycle>(run_.config.setup.interval);
     SetupTriangle equations;
     for (;;) {
       meter_.waits_for(stall::kNoInput);

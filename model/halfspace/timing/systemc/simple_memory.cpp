@@ -11,9 +11,9 @@ SimpleMemory::SimpleMemory(const sc_core::sc_module_name& name, const Config& co
     : sc_module(name),
       socket("socket"),
       cycle_(1, sc_core::SC_NS),
-      latency_(cycle_ * config.memory_latency),
-      read_bytes_(config.memory_read_bytes),
-      write_bytes_(config.memory_write_bytes),
+      latency_(cycle_ * config.memory.latency),
+      read_bytes_(config.memory.read_bytes),
+      write_bytes_(config.memory.write_bytes),
       bytes_(size) {
   socket.register_b_transport(this, &SimpleMemory::transport);
   socket.register_transport_dbg(this, &SimpleMemory::access);

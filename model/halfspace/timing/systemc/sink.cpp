@@ -20,14 +20,15 @@ void Sink::take() {
     for (;;) {
       const Cycle at = std::max(in->visible(), next_);
       run_.clock.wait_until(at);
-      const auto burst_beats = static_cast<Cycle>(beats(in->front().quads, run_.config.early_z_width));
+      const auto burst_beats =
+          static_cast<Cycle>(beats(in->front().quads, run_.config.early_z.quads_per_cycle));
       const Cycle last = at + burst_beats - 1;
       const TestedToken token = in->take(last);
       next_ = last + 1;
       run_.record(&PacketTimes::y, at);
       token.work->cycles.end = last;
       token.work->has_burst = true;
-      with_tile_size(run_.config.tile_size, [&](auto size) {
+      with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
         count_pixels<size()>(token);
         if (token.work->record_quads) {
           show_quads<size()>(token, at);
@@ -68,15 +69,16 @@ void Sink::show_quads(const TestedToken& token, Cycle first_beat) {
   const DrawWork& work = *token.work;
   std::uint64_t number = 0;
   for_each_quad<TileSize>(token.burst, [&](const Quad& quad) {
-    QuadEvent event{.draw = work.draw,
-                    .triangle = token.triangle->triangle,
-                    .surface = work.surface,
-                    .x = static_cast<std::uint32_t>(token.burst.coverage.tile_x * TileSize + quad.x),
-                    .y = static_cast<std::uint32_t>(token.burst.coverage.tile_y * TileSize + quad.y),
-                    .mask = quad.mask,
-                    .passed = quad_bits<TileSize>(token.passed, quad.x, quad.y),
-                    .depth = {},
-                    .cycle = first_beat + number++ / static_cast<std::uint64_t>(run_.config.early_z_width)};
+    QuadEvent event{
+        .draw = work.draw,
+        .triangle = token.triangle->triangle,
+        .surface = work.surface,
+        .x = static_cast<std::uint32_t>(token.burst.coverage.tile_x * TileSize + quad.x),
+        .y = static_cast<std::uint32_t>(token.burst.coverage.tile_y * TileSize + quad.y),
+        .mask = quad.mask,
+        .passed = quad_bits<TileSize>(token.passed, quad.x, quad.y),
+        .depth = {},
+        .cycle = first_beat + number++ / static_cast<std::uint64_t>(run_.config.early_z.quads_per_cycle)};
     for (int i = 0; !token.codes.empty() && i < 4; ++i) {
       const int sample = (quad.y + i / 2) * TileSize + quad.x + i % 2;
       const bool covered = (quad.mask >> i & 1) != 0;

@@ -14,7 +14,7 @@ TileWalker::TileWalker(const sc_core::sc_module_name& name, RunState& run)
       run_(run),
       meter_(Stage::kTileWalker, run),
       config_(walker_config(run.config)),
-      step_cycles_(static_cast<Cycle>(run.config.walker_step_interval)) {
+      step_cycles_(static_cast<Cycle>(run.config.tile_walker.step_interval)) {
   SC_THREAD(walk);
   set_stack_size(kStackBytes);
 }
@@ -40,7 +40,7 @@ void TileWalker::walk() {
       last_ = accept;
       steps_ = 0;
       emitted_ = false;
-      with_tile_size(run_.config.tile_size, [&](auto size) {
+      with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
         halfspace::tile_walker<size()>(*triangle_.triangle, config_, slot_, *this);
       });
       slot_ = static_cast<std::uint8_t>(slot_ + (emitted_ ? 1 : 0));
@@ -54,7 +54,7 @@ void TileWalker::walk() {
 void TileWalker::decision(int x, int y, int size, TileVerdict verdict) {
   ++steps_;
   DrawWork& work = *triangle_.work;
-  tally(work.counters.tile_walker, verdict, size != run_.config.tile_size);
+  tally(work.counters.tile_walker, verdict, size != run_.config.tile_walker.tile_size);
   if (work.record_decisions) {
     run_.observer->decision({.draw = work.draw,
                              .triangle = triangle_.triangle->triangle,

@@ -1,0 +1,108 @@
+/// Every configuration key, declared once: one row a key, by section. From this table come struct Config
+/// (config.hpp), reading, checking and printing it (config.cpp), the parameters of the packets' widths
+/// (numerics/widths.hpp, rtl/raster_pkg.sv), the arguments of the RTL (timing/rtl/pipeline_arguments.hpp)
+/// and docs/config.md.
+///
+/// A new key is a new row here; `make generated` then writes the committed files that list keys.
+#pragma once
+
+// clang-format off
+/// HALFSPACE_KEYS(BEGIN, END, KEY, MODULE, PACKAGE)
+///
+/// BEGIN(section) and END(section) enclose a section's rows; a row before the first section is a key without
+/// one. The kind of a row says what the key is in the RTL; what the rows have in common comes first:
+///
+///   KEY    (section., name, type, default, legal, unit, changes, help)           no parameter
+///   MODULE (..., Parameter, place)    parameter of raster_pipeline.sv, and its place among them, from 1
+///   PACKAGE(..., Parameter, define)   parameter of raster_pkg.sv, and the define that sets it
+///
+/// section  with its dot, as the member is reached: `config.section.name`; empty outside all sections
+/// legal    range(least, most), power_of_two(least, most), boolean() or one_of(names), whose place in the list
+///          is the value of the enumeration; what depends on other keys is in validate()
+/// unit     empty where there is none
+/// changes  function: may change packets; time: only the cycles in which they move
+///
+/// The smallest FIFO has an output register and a slot; the largest keeps the triangles behind the walker
+/// within the 256 contexts that a tile job can name.
+#define HALFSPACE_KEYS(BEGIN, END, KEY, MODULE, PACKAGE)                                                     \
+  KEY(, late_z, LateZ, LateZ::kOpaque, one_of("opaque", "no_write"), "", function,                           \
+      "draws whose shader may discard, writes depth or has side effects: opaque = test and write, "          \
+      "no_write = test only")                                                                                \
+  BEGIN(raster)                                                                                              \
+    PACKAGE(raster., sub_pixel_bits, int, 8, range(4, 8), "bits", function,                                  \
+        "fraction bits of a snapped window coordinate", SubPixelBits, HALFSPACE_SUB_PIXEL_BITS)              \
+  END(raster)                                                                                                \
+  BEGIN(setup)                                                                                               \
+    MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \
+        "triangles whose verdict is known or under way, dropped ones included", SetupQueue, 1)               \
+    MODULE(setup., interval, int, 1, power_of_two(1, 16), "cycles", time,                                    \
+        "distance of drawn triangles: cycles that a stage of the divider works", SetupInterval, 3)           \
+    MODULE(setup., fifo, int, 24, range(2, 64), "triangles", time,                                           \
+        "output FIFO of setup", SetupFifo, 2)                                                                \
+  END(setup)                                                                                                 \
+  BEGIN(tile_walker)                                                                                         \
+    PACKAGE(tile_walker., tile_size, int, 8, power_of_two(4, 16), "pixels", function,                        \
+        "side of the tile that the edge evaluator takes in one step", TileSize, HALFSPACE_TILE_SIZE)         \
+    MODULE(tile_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                       \
+        "side of the block that the walker decides before its tiles; larger than a tile", BlockSize, 5)      \
+    MODULE(tile_walker., block_level, bool, true, boolean(), "", function,                                   \
+        "decide whole blocks first; off: every tile of the bounds is decided", BlockLevel, 6)                \
+    MODULE(tile_walker., trivial_reject, bool, true, boolean(), "", function,                                \
+        "drop blocks and tiles that are outside one edge", TrivialReject, 7)                                 \
+    MODULE(tile_walker., trivial_accept, bool, true, boolean(), "", function,                                \
+        "evaluate no edge all of whose samples in the tile are inside", TrivialAccept, 8)                    \
+    MODULE(tile_walker., step_interval, int, 1, range(1, 8), "cycles", time,                                 \
+        "cycles a step of the walker takes", StepInterval, 9)                                                \
+    MODULE(tile_walker., fifo, int, 16, range(2, 64), "tile jobs", time,                                     \
+        "output FIFO of the walker", WalkerFifo, 4)                                                          \
+  END(tile_walker)                                                                                           \
+  BEGIN(edge_evaluator)                                                                                      \
+    MODULE(edge_evaluator., pipe_stages, int, 2, range(1, 3), "registers", time,                             \
+        "pipeline registers before the output FIFO", PipeStages, 10)                                         \
+    MODULE(edge_evaluator., fifo, int, 4, range(2, 32), "tiles", time,                                       \
+        "output FIFO of the edge evaluator", EdgeFifo, 11)                                                   \
+  END(edge_evaluator)                                                                                        \
+  BEGIN(quad_generator)                                                                                      \
+    PACKAGE(quad_generator., quads_per_cycle, int, 4, power_of_two(1, 16), "quads", time,                    \
+        "width of a beat; at most the quads of a tile", QuadWidth, HALFSPACE_QUAD_WIDTH)                     \
+    MODULE(quad_generator., fifo, int, 4, range(2, 64), "bursts", time,                                      \
+        "output FIFO of the quad generator; a burst is the quads of one tile", QuadFifo, 12)                 \
+  END(quad_generator)                                                                                        \
+  BEGIN(early_z)                                                                                             \
+    PACKAGE(early_z., quads_per_cycle, int, 4, power_of_two(1, 16), "quads", time,                           \
+        "quads tested in a cycle; at most quad_generator.quads_per_cycle", TestWidth, HALFSPACE_TEST_WIDTH)  \
+    MODULE(early_z., pending, int, 32, range(2, 64), "bursts", time,                                         \
+        "bursts between the lookup of their lines and their test", PendingDepth, 13)                         \
+    MODULE(early_z., fifo, int, 16, range(2, 64), "bursts", time,                                            \
+        "output FIFO of early_z", EarlyZFifo, 14)                                                            \
+  END(early_z)                                                                                               \
+  BEGIN(depth)                                                                                               \
+    KEY(depth., interpolator, DepthInterpolator, DepthInterpolator::kBarycentric,                            \
+        one_of("plane", "barycentric"), "", function,                                                        \
+        "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers")                \
+  END(depth)                                                                                                 \
+  BEGIN(z_cache)                                                                                             \
+    MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \
+        "lines of the z cache, all parts and ways together; room for 4 bytes a sample", Lines, 15)           \
+    MODULE(z_cache., ways, int, 4, power_of_two(1, 16), "lines", time,                                       \
+        "lines of a set", Ways, 16)                                                                          \
+    PACKAGE(z_cache., parts, int, 1, power_of_two(1, 4), "", time,                                           \
+        "a line holds a tile, or this part of its rows", ZParts, HALFSPACE_Z_PARTS)                          \
+    MODULE(z_cache., misses_in_flight, int, 16, range(1, 64), "lines", time,                                 \
+        "fill buffers; at least z_cache.parts", MissesInFlight, 17)                                          \
+    MODULE(z_cache., write_buffers, int, 4, range(1, 64), "lines", time,                                     \
+        "lines on their way to memory; at least z_cache.parts", WriteBuffers, 18)                            \
+    KEY(z_cache., fast_clear, bool, true, boolean(), "", function,                                           \
+        "a clear of a whole surface marks its lines; off: it is drawn")                                      \
+    MODULE(z_cache., clear_tiles, int, 64, power_of_two(1, 1024), "tiles", time,                             \
+        "tiles that a fast clear marks in a cycle", ClearTiles, 21)                                          \
+  END(z_cache)                                                                                               \
+  BEGIN(memory)                                                                                              \
+    KEY(memory., latency, int, 100, range(1, 65535), "cycles", time,                                         \
+        "from a request to the first of its data")                                                           \
+    MODULE(memory., read_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                               \
+        "read in a cycle", ReadBytes, 19)                                                                    \
+    MODULE(memory., write_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                              \
+        "written in a cycle", WriteBytes, 20)                                                                \
+  END(memory)
+// clang-format on
