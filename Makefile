@@ -72,6 +72,18 @@ $(PLOT_TOOLS): tools/requirements-plot.txt | packages
 	.venv/bin/pip install --quiet --requirement $<
 	touch $@
 
+# Nothing is replaced by a file that could not be printed whole, or that would be the same.
+.PHONY: generated
+generated: release-program ## Print anew what the C++ tables make: docs/config.md, configs/, rtl/raster_pkg.sv.
+	cmake --build --preset release --target raster_pkg
+	@mkdir -p $(BUILD)/generated
+	$(HALFSPACE) config --markdown > $(BUILD)/generated/config.md
+	cmake -E copy_if_different $(BUILD)/generated/config.md docs/config.md
+	set -e; for machine in $(notdir $(wildcard configs/*.toml)); do \
+	  $(HALFSPACE) config --toml --config configs/$$machine > $(BUILD)/generated/$$machine; \
+	  cmake -E copy_if_different $(BUILD)/generated/$$machine configs/$$machine; \
+	done
+
 .PHONY: format
 format: ## Lay out the sources by clang-format.
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format -i

@@ -3,9 +3,11 @@
 
 #include <catch2/catch.hpp>
 #include <map>
+#include <regex>
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/rtl/pipeline_arguments.hpp"
 
 using namespace halfspace::testing;
 
@@ -50,6 +52,34 @@ TEST_CASE("configs: every file lists every key, nothing else, and is what the pr
     CHECK(slurp(path) == again.out);
   }
   CHECK(slurp(machines()["baseline"]) == place.run("config --toml").out);
+}
+
+TEST_CASE("configs: docs/config.md is what the program prints; `make generated` prints it anew") {
+  const Place place;
+  const Outcome printed = place.run("config --markdown");
+  REQUIRE(printed.status == 0);
+  CHECK(slurp(fs::path(HALFSPACE_SOURCE) / "docs" / "config.md") == printed.out);
+  CHECK(place.run("config --markdown --set late_z=opaque").status != 0);  // it prints the defaults
+}
+
+// The parameters of raster_pipeline.sv have the order and the defaults of the keys that set them.
+TEST_CASE("configs: Verilator's arguments are the parameters of raster_pkg.sv and raster_pipeline.sv") {
+  const fs::path rtl = fs::path(HALFSPACE_SOURCE) / "rtl";
+  const auto find_all = [](const std::string& text, const std::regex& pattern, const char* option) {
+    std::vector<std::string> arguments;
+    for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) {
+      arguments.push_back(option + at->str(1) + "=" + at->str(2));
+    }
+    return arguments;
+  };
+  std::vector<std::string> expected =
+      find_all(slurp(rtl / "raster_pkg.sv"), std::regex(R"(`define (\w+) (\d+)\n)"), "-D");
+  const std::vector<std::string> parameters =
+      find_all(slurp(rtl / "raster_pipeline.sv"),
+               std::regex(R"(\n  parameter (?:int unsigned|bit) +(\w+) = ([\w']+),)"), "-G");
+  expected.insert(expected.end(), parameters.begin(), parameters.end());
+  std::erase(expected, "-GCounterBits=50");  // no key sets it
+  CHECK(halfspace::rtl::pipeline_arguments({}) == expected);
 }
 
 TEST_CASE("configs: 'shallow' has the smallest value of everything that holds packets") {

@@ -9,17 +9,62 @@
 #include "halfspace/timing/rtl/pipeline_arguments.hpp"
 
 namespace halfspace {
+namespace {
+
+/// docs/config.md: a table a section, with the defaults.
+std::string to_markdown() {
+  std::string text =
+      "# Configuration keys\n\n"
+      "Printed by `halfspace config --markdown` from `model/halfspace/config/keys.hpp`. To add a key, add "
+      "its row "
+      "there and run\n"
+      "`make generated`.\n\n"
+      "A key is set by `--set KEY=VALUE` or in a TOML file (`--config FILE`, see [`configs/`](../configs)). "
+      "\"changes\" says whether a\n"
+      "key may change packets (function) or only the cycles in which they move (time).\n"
+      "RTL: the argument of Verilator that sets it, with `VALUE` after `=`; a dash where the RTL has no "
+      "parameter. `halfspace config --rtl` prints\n"
+      "them all.\n";
+  std::string section = "-";
+  for (const ConfigKey& key : config_keys({})) {
+    const std::size_t dot = key.name.find('.');
+    const std::string in = dot == std::string::npos ? "" : key.name.substr(0, dot);
+    if (in != section) {
+      text += fmt::format("\n## {}\n\n", in.empty() ? "without a section" : in);
+      text += "| key | default | legal | unit | changes | RTL | what |\n";
+      text += "|---|---|---|---|---|---|---|\n";
+      section = in;
+    }
+    text += fmt::format("| `{}` | `{}` | {} | {} | {} | {} | {} |\n", key.name, key.value, key.legal,
+                        key.unit.empty() ? "-" : key.unit, key.timing ? "time" : "function",
+                        key.rtl.empty() ? "-" : "`" + key.rtl + "`", key.help);
+  }
+  return text;
+}
+
+}  // namespace
 
 void add_config_command(CLI::App& app, int& /*status*/) {
   auto machine = std::make_shared<MachineOptions>();
   auto toml = std::make_shared<bool>(false);
   auto rtl = std::make_shared<bool>(false);
+  auto markdown = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("config", "show every configuration key with its help");
   machine->add_to(*command);
   CLI::Option* const as_toml = command->add_flag("--toml", *toml, "print a configuration file");
-  command->add_flag("--rtl", *rtl, "print Verilator's arguments for rtl/raster_pipeline.sv")
-      ->excludes(as_toml);
-  command->callback([machine, toml, rtl] {
+  CLI::Option* const as_rtl =
+      command->add_flag("--rtl", *rtl, "print Verilator's arguments for rtl/raster_pipeline.sv")
+          ->excludes(as_toml);
+  command->add_flag("--markdown", *markdown, "print docs/config.md: every key with its default")
+      ->excludes(as_toml)
+      ->excludes(as_rtl)
+      ->excludes("--config")
+      ->excludes("--set");
+  command->callback([machine, toml, rtl, markdown] {
+    if (*markdown) {
+      fmt::print("{}", to_markdown());
+      return;
+    }
     const Config config = machine->config();
     if (*rtl) {
       fmt::print("{}\n", fmt::join(rtl::pipeline_arguments(config), "\n"));
