@@ -81,7 +81,7 @@ module early_z
 
   // What the cycle is spent on, by the two stages.
   output z_lookup_activity_e   lookup_activity_o,
-  output early_z_activity_e    activity_o
+  output z_test_activity_e    activity_o
 );
 
   localparam int unsigned PartLines = Lines / ZParts;

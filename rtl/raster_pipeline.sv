@@ -87,7 +87,7 @@ module raster_pipeline
   edge_evaluator_activity_e edge_activity;
   quad_generator_activity_e quad_activity;
   z_lookup_activity_e       lookup_activity;
-  early_z_activity_e        test_activity;
+  z_test_activity_e        test_activity;
 
   logic            triangle_valid, triangle_ready;
   setup_triangle_t triangle;

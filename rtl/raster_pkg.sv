@@ -1,7 +1,7 @@
 // Widths and packets of the links between the units, for every configuration.
 //
 // Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
-// model/halfspace/units/link_packets.hpp and model/halfspace/timing/cycle_stats.hpp: change those and print this file
+// model/halfspace/units/link_packets.hpp and model/halfspace/machine/shape.hpp: change those and print this file
 // again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
 // -DHALFSPACE_TILE_SIZE=4|8|16
@@ -229,14 +229,27 @@ package raster_pkg;
     ZLookupRequest = 5
   } z_lookup_activity_e;
 
-  // a cycle of early_z
+  // a cycle of z_test
   typedef enum logic [ActivityBits-1:0] {
-    EarlyZBusy = 0,
-    EarlyZNoBurst = 1,
-    EarlyZFill = 2,
-    EarlyZWriteBuffer = 3,
-    EarlyZNoCredit = 4
-  } early_z_activity_e;
+    ZTestBusy = 0,
+    ZTestNoBurst = 1,
+    ZTestFill = 2,
+    ZTestWriteBuffer = 3,
+    ZTestNoCredit = 4
+  } z_test_activity_e;
+
+  // what can happen in a cycle: bits of the probe of the pipeline's bench
+  parameter int unsigned EventDecide = 0;  // setup draws or drops a triangle
+  parameter int unsigned EventAccept = 1;  // tile_walker takes a triangle
+  parameter int unsigned EventEmit = 2;  // tile_walker makes a tile job
+  parameter int unsigned EventJob = 3;  // edge_evaluator takes a tile job
+  parameter int unsigned EventCoverage = 4;  // quad_generator takes a coverage
+  parameter int unsigned EventBeat = 5;  // z_lookup takes a beat
+  parameter int unsigned EventFirstBeat = 6;  // it is the first of its burst
+  parameter int unsigned EventLastBeat = 7;  // it is the last of its burst
+  parameter int unsigned EventTestFirst = 8;  // z_test tests the first beat of a burst
+  parameter int unsigned EventTestLast = 9;  // z_test tests the last beat of a burst
+  parameter int unsigned EventCount = 10;
 
 endpackage : raster_pkg
 

@@ -102,7 +102,7 @@ module z_test
   input  logic [ZParts-1:0] [Ways-1:0]           dropped_i,
 
   output logic                                   written_o,     // the write buffer is empty
-  output early_z_activity_e                      activity_o,
+  output z_test_activity_e                      activity_o,
   output logic                                   idle_o
 );
 
@@ -267,10 +267,10 @@ module z_test
   assign there          = resolved_q != '0 && filled_q >= wanted_fills;
   assign buffers_free   = buffer_count_t'(WriteBuffers) - buffers_q >= wanted_buffers;
   assign ready_to_begin = there && buffers_free && fifo_free_q != '0;
-  assign activity_o     = !valid_q        ? EarlyZNoBurst
-                          : fire          ? EarlyZBusy
-                          : !there        ? EarlyZFill
-                          : !buffers_free ? EarlyZWriteBuffer : EarlyZNoCredit;
+  assign activity_o     = !valid_q        ? ZTestNoBurst
+                          : fire          ? ZTestBusy
+                          : !there        ? ZTestFill
+                          : !buffers_free ? ZTestWriteBuffer : ZTestNoCredit;
   assign fire           = valid_q & (~first_q | ready_to_begin);
   assign swap           = fire & first_q;
   assign burst_done_o   = fire & beat_q.last;

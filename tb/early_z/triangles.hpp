@@ -7,9 +7,9 @@
 #include "common/random.hpp"
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/numerics/widths.hpp"
-#include "halfspace/units/early_z.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
+#include "halfspace/units/z_test.hpp"
 
 namespace halfspace::tb {
 

@@ -220,7 +220,7 @@ class Maker {
         burst.coverage.tile_y * surface.place.tiles_x + static_cast<std::uint32_t>(burst.coverage.tile_x);
     std::uint32_t* const stored = &surface.codes[tile * static_cast<std::uint32_t>(TileSize * TileSize)];
     TileCodes<TileSize> codes{};
-    const TileMask passed = early_z<TileSize>(triangle, burst, state, stored, codes);
+    const TileMask passed = z_test<TileSize>(triangle, burst, state, stored, codes);
     if (state.format == DepthFormat::kNone) {
       codes.fill(0);
     } else if (!state.test) {

@@ -122,13 +122,13 @@ class FaultyPipeline final : public PipelineDecorator {
       case PipelineFault::kFlipTriangle:
       case PipelineFault::kFlipEquation:
       case PipelineFault::kFlipState:
-        return event::kAccept;
+        return bit(Event::kAccept);
       case PipelineFault::kFlipJob:
-        return event::kJob;
+        return bit(Event::kJob);
       case PipelineFault::kFlipCoverage:
-        return event::kCoverage;
+        return bit(Event::kCoverage);
       case PipelineFault::kFlipBeat:
-        return event::kBeat;
+        return bit(Event::kBeat);
       default:
         return 0;
     }

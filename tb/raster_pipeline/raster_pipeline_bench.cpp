@@ -16,6 +16,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 #include "raster_pipeline/fault.hpp"
@@ -149,32 +150,33 @@ class Bench {
     if (fault_ != tb::PipelineFault::kNone) {
       pipeline = tb::with_fault(std::move(pipeline), fault_, options_.fault_at);
     }
-    PacketTimes times;
-    TimedRun run{.stalls = stalls, .cycles = {}, .times = &times};
+    const auto engine = [&](Events& events) {
+      return EngineOptions{
+          .watch = {.keep_visible = true, .observer = &events}, .stalls = stalls, .packet_times = true};
+    };
     Events events;
-    rtl::PacketReport report;
     const auto start = std::chrono::steady_clock::now();
-    const FrameResult result = run_rtl(frame, config, true, &events, run, *pipeline, report);
+    const RtlResult verilated = run_rtl(frame, config, engine(events), *pipeline);
     totals_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const rtl::PacketReport& report = verilated.report;
     if (report.different != 0) {
       throw Difference(fmt::format("{}: {} differences, first: {}", name, report.different, report.first));
     }
-    PacketTimes model_times;
-    TimedRun model{.stalls = stalls, .cycles = {}, .times = &model_times};
     Events model_events;
-    const FrameResult model_result = run_recurrence(frame, config, true, &model_events, model);
-    const std::string text = difference(times, model_times) + difference(run.cycles, model.cycles) +
-                             difference(result, model_result) + difference(events, model_events) +
+    const TimedResult model = run_recurrence(frame, config, engine(model_events));
+    const TimedResult& run = verilated.timed;
+    const std::string text = difference(run.times, model.times) + difference(run.cycles, model.cycles) +
+                             difference(run.frame, model.frame) + difference(events, model_events) +
                              difference("cycle of quad", events.cycles, model_events.cycles);
     if (!text.empty()) {
       throw Difference(fmt::format("{}: RTL against recurrence: {}", name, text));
     }
-    quads_ = result.counters.quad_generator.quads;
-    from_ = times.decide.empty() ? 0 : times.decide.front() - kSetupCullLatency;
+    quads_ = run.frame.counters.quad_generator.quads;
+    from_ = run.times.decide.empty() ? 0 : run.times.decide.front() - kSetupCullLatency;
     to_ = run.cycles.draws.empty() ? 0 : run.cycles.draws.back().end;
     frame_cycles_ = run.cycles.cycles;
     ++totals_.frames;
-    totals_.triangles += times.decide.size();
+    totals_.triangles += run.times.decide.size();
     totals_.cycles += run.cycles.cycles;
     totals_.compared += report.compared;
     for (std::size_t stage = 0; stage < kStages; ++stage) {

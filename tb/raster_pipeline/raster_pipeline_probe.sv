@@ -22,12 +22,22 @@ module raster_pipeline_probe
   input quad_beat_t      quad_beat_i
 );
 
-  // In the order of halfspace::rtl::event (model/halfspace/timing/rtl/verilated_pipeline.hpp).
-  logic [12:0] events  /*verilator public_flat_rd*/;
-  assign events = {
-    writes_i, test_last_i, test_first_i, last_beat_i & beat_i, first_beat_i & beat_i, beat_i,
-    coverage_i, job_i, emit_i, accept_i, decide_i
-  };
+  // Above the events: how many lines enter the write buffer.
+  logic [EventCount+2:0] events  /*verilator public_flat_rd*/;
+  always_comb begin
+    events = '0;
+    events[EventDecide] = decide_i;
+    events[EventAccept] = accept_i;
+    events[EventEmit] = emit_i;
+    events[EventJob] = job_i;
+    events[EventCoverage] = coverage_i;
+    events[EventBeat] = beat_i;
+    events[EventFirstBeat] = first_beat_i & beat_i;
+    events[EventLastBeat] = last_beat_i & beat_i;
+    events[EventTestFirst] = test_first_i;
+    events[EventTestLast] = test_last_i;
+    events[EventCount+:3] = writes_i;
+  end
 
   logic [$bits(setup_triangle_t)-1:0] triangle  /*verilator public_flat_rd*/;
   logic [$bits(depth_equation_t)-1:0] equation  /*verilator public_flat_rd*/;

@@ -1,8 +1,8 @@
 // Every triangle of a frame, as it leaves the front end.
 #include <deque>
 
+#include "halfspace/machine/frame_source.hpp"
 #include "halfspace/scene/load.hpp"
-#include "halfspace/timing/frame_source.hpp"
 #include "stimulus.hpp"
 
 namespace halfspace::tb {
@@ -28,7 +28,10 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
       }
       const DrawContext& draw = *item->draw;
       const ZSurface place = draw.surface == kNoSurface ? ZSurface{} : places[draw.surface];
-      jobs.push_back({to_packet(item->triangle), draw_state_packet(draw.setup, draw.early_z, place, 0)});
+      const DrawStatePacket state = draw_state_packet(draw.setup, draw.early_z, place, 0);
+      for (const ScreenTriangle& triangle : item->triangles) {
+        jobs.push_back({to_packet(triangle), state});
+      }
     }
   }
   return jobs;

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/draw_state.hpp"
 #include "halfspace/scene/front_end.hpp"
 #include "halfspace/scene/load.hpp"
-#include "halfspace/timing/draw_state.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/setup.hpp"
 

@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/ptf.hpp"
-#include "halfspace/timing/functional.hpp"
 
 using namespace halfspace;
 
@@ -18,7 +18,7 @@ TEST_CASE("a scissor may lie anywhere and have any size") {
       for (Command& command : frame.commands) {
         command.scissor = {at, at, extent, extent};
       }
-      const FrameResult result = run_functional(frame, {}, false, nullptr);
+      const FrameResult result = run_functional(frame, {});
       const std::uint64_t fragments = result.counters.quad_generator.fragments;
       CHECK(fragments == (at <= 0 && extent == kMost && at != kLeast ? 74783 : 0));
     }
@@ -36,7 +36,7 @@ TEST_CASE("any byte of a frame may change: it is refused, or it runs and every f
       CAPTURE(i, change);
       try {
         const Frame frame = parse_ptf(bytes, "changed");
-        const Counters c = run_functional(frame, {}, false, nullptr).counters;
+        const Counters c = run_functional(frame, {}).counters;
         ++ran;
         REQUIRE(c.front_end.triangles >=
                 c.front_end.non_finite + c.front_end.clipped_away + c.front_end.degenerate);

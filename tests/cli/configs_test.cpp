@@ -188,7 +188,7 @@ TEST_CASE("stats: draw after draw, every cycle of every stage has its reason") {
     CHECK(time["end"] >= end);
     end = time["end"];
     // Nothing holds the sink up: a beat is there kTestLatency cycles after it was tested, the last one too.
-    CHECK(end + 1 == up_to_here["early_z"] + halfspace::kTestLatency);
+    CHECK(end + 1 == up_to_here["z_test"] + halfspace::kTestLatency);
   }
   CHECK(end < stats["cycles"]);
   for (const auto& [name, cycles] : up_to_here) {

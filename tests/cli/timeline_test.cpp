@@ -141,8 +141,7 @@ TEST_CASE("timeline: slices name the packet, as the other files do") {
   REQUIRE(place.run(run_command(place, "vkcube.ptf.xz", "--set z_cache.fast_clear=false")).status == 0);
   const TimelineFile timeline = read_timeline(place.path / "result");
   const Json counters = read_stats(place.path / "result")["draws"][0]["counters"];
-  const std::vector<Slice>& tests =
-      timeline.slices.at({kStages, static_cast<int>(halfspace::Stage::kEarlyZ)});
+  const std::vector<Slice>& tests = timeline.slices.at({kStages, static_cast<int>(halfspace::Stage::kZTest)});
   std::set<std::uint64_t> bursts;
   for (const Slice& slice : tests) {
     if (slice.category == "busy" && slice.name.rfind("draw 0 burst ", 0) == 0) {

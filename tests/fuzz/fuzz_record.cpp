@@ -7,14 +7,14 @@ namespace {
 /// Small enough for thousands of runs a second.
 bool is_small(const halfspace::FrameRecord& record) {
   std::uint64_t tiles = 0;
-  for (const halfspace::RecordedSurface& surface : record.surfaces) {
+  for (const halfspace::StreamSurface& surface : record.surfaces) {
     tiles += surface.tiles;
   }
   std::uint64_t dropped = 0;
-  for (const halfspace::RecordedTriangle& triangle : record.triangles) {
+  for (const halfspace::StreamTriangle& triangle : record.packets.triangles) {
     dropped += triangle.dropped_before;
   }
-  for (const halfspace::RecordedSegment& segment : record.segments) {
+  for (const halfspace::StreamSegment& segment : record.packets.segments) {
     dropped += segment.dropped_after;
   }
   return tiles < 65536 && dropped < 65536;

@@ -1,8 +1,8 @@
 #include <numeric>
 
 #include "fuzz_input.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/scene/ptf.hpp"
-#include "halfspace/timing/functional.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const int tile_size : {4, 8, 16}) {
     Config config;
     config.tile_walker.tile_size = tile_size;
-    const Counters counters = run_functional(*frame, config, false, nullptr).counters;
+    const Counters counters = run_functional(*frame, config).counters;
     if (tile_size != 4 && counters.early_z.survivors != survivors) std::abort();
     survivors = counters.early_z.survivors;
   }

@@ -9,10 +9,10 @@
 #include <optional>
 #include <sstream>
 
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/report/npy.hpp"
 #include "halfspace/scene/ptf.hpp"
-#include "halfspace/timing/functional.hpp"
 
 using namespace halfspace;
 namespace fs = std::filesystem;
@@ -85,7 +85,7 @@ FrameResult discarding_draws(const Frame& frame) {
   std::erase_if(only.commands, [](const Command& c) {
     return c.kind == CommandKind::kDraw && !(c.has(Flag::kShaderDiscards) && c.has(Flag::kDepthWrite));
   });
-  return run_functional(only, {}, false, nullptr);
+  return run_functional(only, {});
 }
 
 /// Counts of both ways to take draws that would test late, on every surface.
@@ -97,7 +97,7 @@ void check_counts(const std::string& name) {
   for (const Expected& row : rows) {
     Config config;
     config.late_z = row.opaque ? LateZ::kOpaque : LateZ::kNoWrite;
-    const FrameResult result = run_functional(frame, config, false, nullptr);
+    const FrameResult result = run_functional(frame, config);
     const Counters& counters = result.surfaces.at(row.surface).counters;
     const auto fragments = static_cast<double>(counters.quad_generator.fragments);
     const auto survivors = static_cast<double>(counters.early_z.survivors);
@@ -119,7 +119,7 @@ void check_counts(const std::string& name) {
 /// Depth on every surface that the driver could read back.
 void check_depth(const std::string& name) {
   const Frame frame = load_frame(name);
-  const FrameResult result = run_functional(frame, {}, false, nullptr);
+  const FrameResult result = run_functional(frame, {});
   const FrameResult discarding = discarding_draws(frame);
   const std::vector<reference::Surface> unsnapped = reference::rasterize(frame, {});
   int compared = 0;

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "../frames.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/scene/validate.hpp"
-#include "halfspace/timing/functional.hpp"
 #include "random.hpp"
 
 using namespace halfspace;
@@ -48,7 +48,7 @@ std::vector<Value> rows(const TiledImage<Value>& image) {
 
 Surface run_surface(const Frame& frame, const Config& config = {}) {
   validate(frame);
-  return run_functional(frame, config, false, nullptr).surfaces.at(0);
+  return run_functional(frame, config).surfaces.at(0);
 }
 
 /// Every fan triangle around `centre` over a ring of points.
@@ -204,7 +204,8 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
   Config config;
   config.tile_walker.tile_size = tile_size;
   QuadChecker checker;
-  const FrameResult result = run_functional(builder.frame, config, false, &checker);
+  const FrameResult result =
+      run_functional(builder.frame, config, {.keep_visible = false, .observer = &checker});
   const QuadGeneratorCounters& counters = result.counters.quad_generator;
   CHECK((checker.aligned && checker.subset && checker.ordered && checker.once && !checker.helper_depth));
   CHECK(checker.quads == counters.quads);

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/numerics/split_mix.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/validate.hpp"
-#include "halfspace/timing/functional.hpp"
 
 using namespace halfspace;
 using Catch::Matchers::Contains;
@@ -148,7 +148,7 @@ TEST_CASE("one_triangle covers half of 512x512") {
   REQUIRE(triangles.size() == 1);
   CHECK(area(triangles[0]) == 131072);
   // The diagonal meets 512 pixel centres, and is a right edge of the triangle: none of them is inside.
-  const FrameResult result = run_functional(frame, Config{}, false, nullptr);
+  const FrameResult result = run_functional(frame, Config{});
   CHECK(result.counters.quad_generator.fragments == 512 * 511 / 2);
 }
 
@@ -215,14 +215,14 @@ TEST_CASE("sliver: 1000 pixels long and less than one wide, in all directions") 
 
 TEST_CASE(
     "tiny_grid covers its rows without a gap and without overdraw; fill covers every pixel in each layer") {
-  const FrameResult grid = run_functional(synthetic_frame("tiny_grid"), Config{}, false, nullptr);
+  const FrameResult grid = run_functional(synthetic_frame("tiny_grid"), Config{});
   const std::uint64_t fragments = grid.counters.quad_generator.fragments;
   CHECK(pixels_covered(grid) == fragments);
   CHECK(static_cast<double>(fragments) == Approx(1920 * 10 * 2.16).epsilon(0.01));
   CHECK(fragments == grid.counters.early_z.survivors);
 
-  const FrameResult front = run_functional(synthetic_frame("fill_ftb"), Config{}, false, nullptr);
-  const FrameResult back = run_functional(synthetic_frame("fill_btf"), Config{}, false, nullptr);
+  const FrameResult front = run_functional(synthetic_frame("fill_ftb"), Config{});
+  const FrameResult back = run_functional(synthetic_frame("fill_btf"), Config{});
   CHECK(front.counters.quad_generator.fragments == 4u * 1920 * 1080);
   CHECK(front.counters.early_z.survivors == 1u * 1920 * 1080);
   CHECK(back.counters.quad_generator.fragments == 4u * 1920 * 1080);

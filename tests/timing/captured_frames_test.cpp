@@ -5,9 +5,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/scene/load.hpp"
-#include "halfspace/timing/functional.hpp"
 #include "halfspace/timing/record/retime.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
 
 using namespace halfspace;
@@ -60,31 +61,26 @@ bool same_counts(const Counters& a, const Counters& b) {
 
 void check_frame(const std::string& name) {
   const Frame frame = load_frame(name);
-  const FrameResult base = run_functional(frame, Config{}, false, nullptr);
+  const FrameResult base = run_functional(frame, Config{});
   for (const char* machine : {"baseline", "small", "wide", "shallow", "slow_memory"}) {
     INFO(name << " on " << machine);
     const Config config = read_config(fs::path(HALFSPACE_CONFIGS) / (std::string(machine) + ".toml"));
     validate(config);
-    const FrameResult functional = run_functional(frame, config, false, nullptr);
-    PacketTimes recurrence_times;
-    PacketTimes systemc_times;
-    TimedRun recurrence;
-    TimedRun systemc;
-    recurrence.times = &recurrence_times;
-    systemc.times = &systemc_times;
-    const FrameResult a = run_recurrence(frame, config, false, nullptr, recurrence);
-    const FrameResult b = run_systemc(frame, config, false, nullptr, systemc);
-    CHECK((recurrence_times == systemc_times));
+    const FrameResult functional = run_functional(frame, config);
+    const EngineOptions options{.watch = {}, .stalls = {}, .packet_times = true};
+    const TimedResult recurrence = run_recurrence(frame, config, options);
+    const TimedResult systemc = run_systemc(frame, config, options);
+    CHECK((recurrence.times == systemc.times));
     CHECK((recurrence.cycles == systemc.cycles));
     CHECK(recurrence.cycles.cycles == systemc.cycles.cycles);
-    CHECK(same_image(a, base));
-    CHECK(same_image(b, base));
-    CHECK(same_counts(a.counters, functional.counters));
-    CHECK(same_counts(b.counters, functional.counters));
-    const RetimedFrame retimed = Retimer(record_frame(frame, config, nullptr)).retime(config);
+    CHECK(same_image(recurrence.frame, base));
+    CHECK(same_image(systemc.frame, base));
+    CHECK(same_counts(recurrence.frame.counters, functional.counters));
+    CHECK(same_counts(systemc.frame.counters, functional.counters));
+    const RetimedFrame retimed = Retimer(record_frame(frame, config)).retime(config);
     CHECK(retimed.cycles == recurrence.cycles.cycles);
     std::cout << name << " on " << machine << ": " << recurrence.cycles.cycles << " cycles, "
-              << systemc_times.emit.size() << " tile jobs, " << systemc_times.y.size()
+              << systemc.times.emit.size() << " tile jobs, " << systemc.times.y.size()
               << " bursts, the same in both engines\n";
   }
 }

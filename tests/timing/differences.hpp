@@ -7,8 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
-#include "halfspace/timing/frame_result.hpp"
 
 namespace halfspace::testing {
 
@@ -35,14 +36,8 @@ inline std::string difference(const std::string& what, std::uint64_t ours, std::
 /// The first packet that moves in another cycle, stage by stage.
 inline std::string difference(const PacketTimes& ours, const PacketTimes& other) {
   std::string text;
-  text += difference("decide", ours.decide, other.decide);
-  text += difference("accept", ours.accept, other.accept);
-  text += difference("emit", ours.emit, other.emit);
-  text += difference("e", ours.e, other.e);
-  text += difference("g", ours.g, other.g);
-  text += difference("f", ours.f, other.f);
-  text += difference("b", ours.b, other.b);
-  return text + difference("y", ours.y, other.y);
+  PacketTimes::lists([&](const char* name, auto list) { text += difference(name, ours.*list, other.*list); });
+  return text;
 }
 
 inline std::string difference(const std::string& what, const CycleStats& ours, const CycleStats& other) {

@@ -39,7 +39,7 @@ class Rig {
   /// A triangle with one burst that misses.
   void miss(int quads, const std::vector<ZMiss>& misses) {
     core_.drawn();
-    core_.job({.steps = 1, .quads = quads, .touched = 1, .misses = misses});
+    core_.job({.steps = 1, .quads = quads, .misses = misses});
     core_.walked(0);
   }
   void fast_clear(std::uint64_t cycles) { core_.fast_clear(cycles); }

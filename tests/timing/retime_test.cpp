@@ -20,10 +20,9 @@ using namespace halfspace::testing;
 namespace {
 
 RetimedFrame full_run(const Frame& frame, const Config& config) {
-  TimedRun run;
-  run_recurrence(frame, config, false, nullptr, run);
-  RetimedFrame result{.cycles = run.cycles.cycles, .draw_end = {}};
-  for (const DrawCycles& draw : run.cycles.draws) {
+  const FrameCycles cycles = run_recurrence(frame, config).cycles;
+  RetimedFrame result{.cycles = cycles.cycles, .draw_end = {}};
+  for (const DrawCycles& draw : cycles.draws) {
     result.draw_end.push_back(draw.end);
   }
   return result;
@@ -69,7 +68,7 @@ TEST_CASE("re-timing equals a full run on random machines, one by one and in a b
     const Config recorded = random_config(random);
     const Frame frame = random_frame(random);
     CAPTURE(difference_from_default(recorded));
-    Retimer retimer(record_frame(frame, recorded, nullptr));
+    Retimer retimer(record_frame(frame, recorded));
     std::vector<Config> machines;
     for (int i = 0; i < 40; ++i) {
       machines.push_back(random_timing(random, recorded));
@@ -104,9 +103,12 @@ TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds
   config.z_cache.ways = 1;
   for (int run = 0; run < 20; ++run) {
     const Frame frame = random_frame(random);
-    const FrameRecord record = record_frame(frame, config, nullptr);
+    const FrameRecord record = record_frame(frame, config);
     const ZTrace trace = trace_z_cache(record, {.lines = 1, .ways = 1, .parts = 1});
-    const std::uint64_t bound = detail::longest_time(record_work(record, trace), config);
+    FrameWork work;
+    work.add(whole_stream(record, trace), record.surfaces);
+    work.flush = trace.flush;
+    const std::uint64_t bound = detail::longest_time(work, config);
     CHECK(full_run(frame, config).cycles <= bound);
   }
   // 2^16 fetches of 2^16 cycles each: only the bound is looked at
@@ -124,11 +126,11 @@ TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]")
   record.config.memory.latency = 65535;
   record.config.z_cache.misses_in_flight = 1;
   record.surfaces.push_back({.tiles_x = 2, .tiles = 2, .sample_bytes = 4});
-  record.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
-  record.triangles.push_back({.jobs = 70000});
+  record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
+  record.packets.triangles.push_back({.jobs = 70000});
   for (std::uint32_t i = 0; i < 70000; ++i) {
-    record.jobs.emplace_back(1u, 4);
-    record.accesses.emplace_back(i % 2, 0u, std::uint8_t{15}, std::uint8_t{0});
+    record.packets.jobs.emplace_back(1u, 4);
+    record.packets.accesses.emplace_back(i % 2, 0u, std::uint8_t{15}, std::uint8_t{0});
   }
   Retimer retimer(record);
   const std::vector<Config> machines{record.config, record.config};
@@ -142,7 +144,7 @@ TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]")
 
 TEST_CASE("a key that changes packets is refused by name", "[timing]") {
   Random random(seed());
-  Retimer retimer(record_frame(random_frame(random), Config{}, nullptr));
+  Retimer retimer(record_frame(random_frame(random), Config{}));
   const std::pair<const char*, const char*> changes[] = {
       {"tile_walker.tile_size", "16"},         {"raster.sub_pixel_bits", "7"},
       {"tile_walker.block_size", "16"},        {"tile_walker.block_level", "false"},
@@ -165,9 +167,8 @@ TEST_CASE("the analytic fidelity says the same of a frame and of its record", "[
     CAPTURE(seed(), run);
     const Config config = random_config(random);
     const Frame frame = random_frame(random);
-    AnalyticFrame direct;
-    run_analytic(frame, config, false, nullptr, direct);
-    const AnalyticFrame recorded = Retimer(record_frame(frame, config, nullptr)).analytic(config);
+    const AnalyticFrame direct = run_analytic(frame, config).estimate;
+    const AnalyticFrame recorded = Retimer(record_frame(frame, config)).analytic(config);
     REQUIRE(recorded.cycles == direct.cycles);
     REQUIRE(recorded.draws.size() == direct.draws.size());
     for (std::size_t i = 0; i < direct.draws.size(); ++i) {
@@ -184,8 +185,7 @@ TEST_CASE("a draw alone never beats its analytic bound", "[timing]") {
     CAPTURE(seed(), run);
     Config config = random_config(random);
     const Frame frame = random_frame(random);
-    AnalyticFrame estimate;
-    run_analytic(frame, config, false, nullptr, estimate);
+    const AnalyticFrame estimate = run_analytic(frame, config).estimate;
     const std::uint64_t cycles = full_run(frame, config).cycles;
     for (const AnalyticDraw& draw : estimate.draws) {
       if (draw.bound != Bound::kMemoryLatency) {  // an average over lines of different sizes
@@ -201,12 +201,12 @@ TEST_CASE("a record comes back from its file", "[timing]") {
   for (int run = 0; run < 20; ++run) {
     CAPTURE(seed(), run);
     const Config config = random_config(random);
-    FrameRecord record = record_frame(random_frame(random), config, nullptr);
+    FrameRecord record = record_frame(random_frame(random), config);
     write_record(file.path, record);
     const FrameRecord back = read_record(file.path);
     CHECK(back.name == record.name);
     CHECK(to_toml(back.config) == to_toml(record.config));
-    REQUIRE(back.jobs.size() == record.jobs.size());
+    REQUIRE(back.packets.jobs.size() == record.packets.jobs.size());
     CHECK(Retimer(back).retime(config) == Retimer(std::move(record)).retime(config));
   }
 }
@@ -215,10 +215,10 @@ TEST_CASE("a damaged record is refused or still a record, never more", "[timing]
   Random random(seed());
   const TemporaryFile file;
   Frame frame = random_frame(random);
-  while (record_frame(frame, Config{}, nullptr).accesses.size() < 5) {
+  while (record_frame(frame, Config{}).packets.accesses.size() < 5) {
     frame = random_frame(random);
   }
-  write_record(file.path, record_frame(frame, Config{}, nullptr));
+  write_record(file.path, record_frame(frame, Config{}));
   const std::vector<std::byte> good = decompress(read_raw_bytes(file.path), "record", 1 << 24);
   const auto run = [&](const std::vector<std::byte>& bytes) {
     write_bytes(file.path, bytes);

@@ -7,9 +7,10 @@
 #include <sstream>
 
 #include "differences.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/scene/ptf.hpp"
 #include "halfspace/scene/validate.hpp"
-#include "halfspace/timing/functional.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
 #include "random_machine.hpp"
 
@@ -21,24 +22,21 @@ namespace {
 /// Runs the frame by all three engines; empty where nothing differs.
 std::string compare(const Frame& frame, const Config& config, const StallPlan& stalls) {
   Events functional_events;
-  const FrameResult functional = run_functional(frame, config, true, &functional_events);
+  const FrameResult functional =
+      run_functional(frame, config, {.keep_visible = true, .observer = &functional_events});
 
+  const auto options = [&](Events& events) {
+    return EngineOptions{
+        .watch = {.keep_visible = true, .observer = &events}, .stalls = stalls, .packet_times = true};
+  };
   Events events;
-  PacketTimes times;
-  TimedRun run;
-  run.stalls = stalls;
-  run.times = &times;
-  const FrameResult systemc = run_systemc(frame, config, true, &events, run);
-
+  const TimedResult systemc = run_systemc(frame, config, options(events));
   Events recurrence_events;
-  PacketTimes recurrence_times;
-  TimedRun recurrence_run;
-  recurrence_run.stalls = stalls;
-  recurrence_run.times = &recurrence_times;
-  run_recurrence(frame, config, true, &recurrence_events, recurrence_run);
+  const TimedResult recurrence = run_recurrence(frame, config, options(recurrence_events));
 
-  return difference(systemc, functional) + difference(events, functional_events) +
-         difference(times, recurrence_times) + difference(run.cycles, recurrence_run.cycles) +
+  return difference(systemc.frame, functional) + difference(recurrence.frame, functional) +
+         difference(events, functional_events) + difference(recurrence_events, functional_events) +
+         difference(systemc.times, recurrence.times) + difference(systemc.cycles, recurrence.cycles) +
          difference("cycle of quad", events.cycles, recurrence_events.cycles);
 }
 

@@ -7,7 +7,7 @@
 #include <systemc>
 #include <tlm>
 
-#include "halfspace/timing/functional.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/timing/systemc/raster_pipeline.hpp"
 #include "halfspace/timing/systemc/simple_memory.hpp"
 #include "halfspace/timing/systemc/simulation_context.hpp"
@@ -135,12 +135,13 @@ TEST_CASE("a host draws a frame by commands, and the image is in its memory") {
   });
   platform.pipeline.bind_frame(frame);
   platform.run();
-  CHECK(platform.pipeline.take_cycles().cycles == cycles);
+  const TimedResult result = platform.pipeline.take_result();
+  CHECK(result.cycles.cycles == cycles);
   CHECK(cycles > 100);
   CHECK(sc_core::sc_time_stamp() == sc_core::sc_time(static_cast<double>(cycles), sc_core::SC_NS));
 
-  const FrameResult functional = run_functional(frame, config, false, nullptr);
-  check_same_image(platform.pipeline.take_result(), functional);
+  const FrameResult functional = run_functional(frame, config);
+  check_same_image(result.frame, functional);
   // The first sample of each row of the first tile, as a program on the host would find it.
   for (unsigned y = 0; y < 8; ++y) {
     std::array<std::uint8_t, 2> bytes{};
@@ -159,23 +160,21 @@ TEST_CASE("a host draws a frame by commands, and the image is in its memory") {
 TEST_CASE("a pipeline draws frame after frame in one simulation, each from cycle 0") {
   const Frame frame = small_frame();
   Platform* machine = nullptr;
-  std::vector<FrameCycles> cycles;
-  std::vector<FrameResult> results;
+  std::vector<TimedResult> results;
   Platform platform({}, 0, depth_bytes(frame, {}), [&](Host& host) {
     for (int n = 0; n < 3; ++n) {
       machine->pipeline.bind_frame(frame);
       CHECK(host.write(registers::kSubmitFrame, 0) == tlm::TLM_OK_RESPONSE);
       CHECK(host.write(registers::kWaitIdle, 0) == tlm::TLM_OK_RESPONSE);
-      cycles.push_back(machine->pipeline.take_cycles());
       results.push_back(machine->pipeline.take_result());
       sc_core::wait(sc_core::sc_time(12345, sc_core::SC_PS));
     }
   });
   machine = &platform;
   platform.run();
-  CHECK(cycles.at(1) == cycles.at(0));
-  CHECK(cycles.at(2) == cycles.at(0));
-  check_same_image(results.at(2), run_functional(frame, {}, false, nullptr));
+  CHECK(results.at(1).cycles == results.at(0).cycles);
+  CHECK(results.at(2).cycles == results.at(0).cycles);
+  check_same_image(results.at(2).frame, run_functional(frame, {}));
 }
 
 TEST_CASE("the command port answers what it cannot do with the error of TLM-2.0") {

@@ -62,12 +62,9 @@ TEST_CASE("a waveform has every change of every link and every busy cycle of eve
     Random random(seed() + n);
     const Config config = random_config(random);
     const Frame frame = random_frame(random);
-    TimedRun run;
-    run.stalls = random_stalls(random);
-    TimedRun traced = run;
-    run_systemc(frame, config, false, nullptr, run);
-    run_systemc(frame, config, false, nullptr, traced, {.vcd = path});
-    REQUIRE(traced.cycles == run.cycles);
+    const EngineOptions options{.watch = {}, .stalls = random_stalls(random)};
+    const TimedResult run = run_systemc(frame, config, options);
+    REQUIRE(run_systemc(frame, config, options, {.vcd = path}).cycles == run.cycles);
 
     auto lasted = read_vcd(path, run.cycles.cycles);
     for (std::size_t i = 0; i < kLinks; ++i) {

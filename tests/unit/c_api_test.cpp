@@ -13,7 +13,6 @@
 
 #include "../triangles.hpp"
 #include "halfspace/config/config.hpp"
-#include "halfspace/units/early_z.hpp"
 #include "halfspace/units/edge_evaluator.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packing.hpp"
@@ -21,6 +20,7 @@
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_walker.hpp"
 #include "halfspace/units/tiled_image.hpp"
+#include "halfspace/units/z_test.hpp"
 
 using namespace halfspace;
 using namespace halfspace::testing;
@@ -176,7 +176,7 @@ class Reference {
       interpolate_tile<TileSize>(triangle_, burst, state, codes);
     }
     const TileMask passed =
-        early_z<TileSize>(triangle_, burst, state, codes_.tile(coverage.tile_x, coverage.tile_y), codes);
+        z_test<TileSize>(triangle_, burst, state, codes_.tile(coverage.tile_x, coverage.tile_y), codes);
     std::vector<Quad> quads;
     for_each_quad<TileSize>(burst, [&](const Quad& quad) { quads.push_back(quad); });
     const auto width = static_cast<std::size_t>(machine_.widths.TestWidth);

@@ -1,5 +1,5 @@
 // early_z: the eight functions, the write, and what a switched-off test does.
-#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/z_test.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -58,7 +58,7 @@ TEST_CASE("early_z: passes and writes as the depth function says") {
                             .sub_pixel_bits = 8};
     const std::uint64_t covered = 0x00FF00FF0F0F0F0Full;
     TileCodes<8> codes{};
-    const TileMask passed = early_z<8>(triangle, burst_of(triangle, covered), state, stored.data(), codes);
+    const TileMask passed = z_test<8>(triangle, burst_of(triangle, covered), state, stored.data(), codes);
     for (int i = 0; i < 64; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const bool expected = (covered >> i & 1) != 0 && (i % 3 == 0   ? if_less
@@ -75,7 +75,7 @@ TEST_CASE("early_z: a test that is off passes everything and writes nothing") {
   std::array<std::uint32_t, 64> stored{};
   TileCodes<8> codes{};
   const TileMask passed =
-      early_z<8>(triangle, burst_of(triangle, 0xF0F0), EarlyZState{}, stored.data(), codes);
+      z_test<8>(triangle, burst_of(triangle, 0xF0F0), EarlyZState{}, stored.data(), codes);
   CHECK(passed.word[0] == 0xF0F0);
   CHECK(stored == std::array<std::uint32_t, 64>{});
 }

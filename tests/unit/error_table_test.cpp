@@ -28,10 +28,10 @@ FidelityRun made_up(const std::string& fidelity) {
   surface.codes = TiledImage<std::uint32_t>(10, 6, 8, 7);
   surface.fragments = TiledImage<std::uint16_t>(10, 6, 8, 2);
   surface.survivors = TiledImage<std::uint16_t>(10, 6, 8, 1);
-  run.result.surfaces.push_back(surface);
-  run.result.draws.resize(4);
-  run.result.counters.front_end.triangles = 12;
-  run.result.counters.quad_generator.fragments = 120;
+  run.frame.surfaces.push_back(surface);
+  run.frame.draws.resize(4);
+  run.frame.counters.front_end.triangles = 12;
+  run.frame.counters.quad_generator.fragments = 120;
   FrameCycles& frame = run.cycles.emplace();
   frame.cycles = 7100;
   for (const std::uint64_t end : {1000, 3000, 7000, 7010}) {
@@ -66,7 +66,7 @@ ErrorTable small_table() {
                                 made_up("recurrence"), made_up("rtl")};
   runs[0].cycles.reset();
   runs[3].milliseconds = {100};
-  runs[3].packets = {.compared = 55, .different = 0};
+  runs[3].rtl = {.compared = 55, .different = 0, .first = {}};
   table.workloads.push_back(compare_fidelities("frame", runs));
   return table;
 }
@@ -170,7 +170,7 @@ TEST_CASE("error table: a stage's cycles may not move from one reason to another
 
 TEST_CASE("error table: every functional difference counts once") {
   const auto function = [](const std::function<void(FrameResult&)>& change) {
-    return *changed([&](FidelityRun& run) { change(run.result); }).function;
+    return *changed([&](FidelityRun& run) { change(run.frame); }).function;
   };
   CHECK(function([](FrameResult& r) { r.surfaces[0].codes.at(9, 5) ^= 1; }).codes == 1);
   CHECK(function([](FrameResult& r) { r.surfaces[0].fragments.at(0, 5) += 1; }).fragments == 1);
@@ -287,7 +287,7 @@ TEST_CASE("error table: files, which are the same for the same table, and replac
   CHECK(lines[0]["cycles"].is_null());
   CHECK(lines[1]["error"]["cycles"] == -100);
   CHECK(lines[1]["draws"]["worst_draw"] == 1);
-  CHECK(lines[2]["stages"]["early_z"]["cycles_off"] == 0);
+  CHECK(lines[2]["stages"]["z_test"]["cycles_off"] == 0);
   CHECK(lines[3]["runs"] == nlohmann::json{100});
   CHECK(slurp(place / "error.md") == error_markdown(small_table()));
   CHECK(slurp(place / "error.csv") == error_csv(small_table()));

@@ -15,7 +15,7 @@ void demand_packet(const void* packet) {
   }
 }
 
-void demand_bits(Link link, int bits, int legal) {
+void demand_bits(LinkId link, int bits, int legal) {
   if (bits != legal) {
     throw InputError(fmt::format("a packet of {} bits on link {} ({}); legal: {}", bits,
                                  static_cast<int>(link), link_name(link), legal));
@@ -61,7 +61,7 @@ ChainContext& GoldenModel::context() {
                      .trivial_reject = config_.tile_walker.trivial_reject,
                      .trivial_accept = config_.tile_walker.trivial_accept};
   for (int link = 0; link < HALFSPACE_LINKS; ++link) {
-    context->expected.emplace_back(words_for(link_bits(static_cast<Link>(link), context->widths)));
+    context->expected.emplace_back(words_for(link_bits(static_cast<LinkId>(link), context->widths)));
   }
   chain_ = make_unit_chain(*context);
   context_ = std::move(context);
@@ -72,11 +72,11 @@ DepthSurfaces& GoldenModel::surfaces() { return context().surfaces; }
 int GoldenModel::tile_size() { return context().widths.TileSize; }
 
 int GoldenModel::packet_bits(int link) {
-  return link_bits(link_of(link, Link::kTriangle, Link::kTestedBeat), context().widths);
+  return link_bits(link_of(link, LinkId::kTriangle, LinkId::kTestedBeat), context().widths);
 }
 
 void GoldenModel::watch(int link) {
-  const Link wanted = link_of(link, Link::kSetupTriangle, Link::kTestedBeat);
+  const LinkId wanted = link_of(link, LinkId::kSetupTriangle, LinkId::kTestedBeat);
   ChainContext& all = context();
   if (started_) {
     throw InputError(fmt::format("link {} ({}) is watched too late; legal: before the first packet is put",
@@ -87,7 +87,7 @@ void GoldenModel::watch(int link) {
 }
 
 ExpectedPackets& GoldenModel::watched(int link) {
-  const Link wanted = link_of(link, Link::kSetupTriangle, Link::kTestedBeat);
+  const LinkId wanted = link_of(link, LinkId::kSetupTriangle, LinkId::kTestedBeat);
   if (!context().watched[static_cast<std::size_t>(wanted)]) {
     throw InputError(
         fmt::format("link {} ({}) is not watched; legal: one that halfspace_watch was called with", link,
@@ -96,7 +96,7 @@ ExpectedPackets& GoldenModel::watched(int link) {
   return context().expected[static_cast<std::size_t>(wanted)];
 }
 
-std::vector<std::uint32_t> GoldenModel::words_of(Link link, const std::uint32_t* packet, int bits) {
+std::vector<std::uint32_t> GoldenModel::words_of(LinkId link, const std::uint32_t* packet, int bits) {
   demand_packet(packet);
   demand_bits(link, bits, link_bits(link, context().widths));
   std::vector<std::uint32_t> words(packet, packet + words_for(bits));
@@ -107,7 +107,7 @@ std::vector<std::uint32_t> GoldenModel::words_of(Link link, const std::uint32_t*
 }
 
 void GoldenModel::put(int link, const std::uint32_t* packet, int bits) {
-  const Link to = link_of(link, Link::kTriangle, Link::kQuadBeat);
+  const LinkId to = link_of(link, LinkId::kTriangle, LinkId::kQuadBeat);
   const std::vector<std::uint32_t> words = words_of(to, packet, bits);
   ChainContext& all = context();
   std::array<std::size_t, HALFSPACE_LINKS> before{};
@@ -126,7 +126,7 @@ void GoldenModel::put(int link, const std::uint32_t* packet, int bits) {
 bool GoldenModel::get(int link, std::uint32_t* packet, int bits) {
   ExpectedPackets& expected = watched(link);
   demand_packet(packet);
-  demand_bits(static_cast<Link>(link), bits, packet_bits(link));
+  demand_bits(static_cast<LinkId>(link), bits, packet_bits(link));
   if (expected.size() == 0) {
     return false;
   }
@@ -137,7 +137,7 @@ bool GoldenModel::get(int link, std::uint32_t* packet, int bits) {
 
 std::optional<std::string> GoldenModel::check(int link, const std::uint32_t* packet, int bits) {
   ExpectedPackets& expected = watched(link);
-  const std::vector<std::uint32_t> got = words_of(static_cast<Link>(link), packet, bits);
+  const std::vector<std::uint32_t> got = words_of(static_cast<LinkId>(link), packet, bits);
   const char* name = link_name(link);
   const std::uint64_t number = expected.taken();
   const bool again = std::ranges::equal(got, expected.last());
@@ -151,7 +151,7 @@ std::optional<std::string> GoldenModel::check(int link, const std::uint32_t* pac
     expected.pop();
     return std::nullopt;
   }
-  const std::string fields = differences(link_fields(static_cast<Link>(link), context().widths), want, got);
+  const std::string fields = differences(link_fields(static_cast<LinkId>(link), context().widths), want, got);
   // One packet too few or too many must not make all that follow differ.
   if (expected.size() > 1) {
     expected.peek(1, want);

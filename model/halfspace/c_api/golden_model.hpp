@@ -39,7 +39,7 @@ class GoldenModel {
   ChainContext& context();
   ExpectedPackets& watched(int link);
   /// The packet without the bits above it.
-  std::vector<std::uint32_t> words_of(Link link, const std::uint32_t* packet, int bits);
+  std::vector<std::uint32_t> words_of(LinkId link, const std::uint32_t* packet, int bits);
 
   Config config_;
   std::unique_ptr<ChainContext> context_;

@@ -16,21 +16,21 @@ constexpr std::array<const char*, HALFSPACE_LINKS> kNames = {
 
 /// Calls visit(Layout) for the layout of a link.
 template <class Visit>
-auto with_layout(Link link, Visit&& visit) {
+auto with_layout(LinkId link, Visit&& visit) {
   switch (link) {
-    case Link::kTriangle:
+    case LinkId::kTriangle:
       return visit(TriangleLink{});
-    case Link::kSetupTriangle:
+    case LinkId::kSetupTriangle:
       return visit(SetupTriangleLink{});
-    case Link::kSlot:
+    case LinkId::kSlot:
       return visit(SlotLink{});
-    case Link::kTileJob:
+    case LinkId::kTileJob:
       return visit(TileJobLink{});
-    case Link::kCoverage:
+    case LinkId::kCoverage:
       return visit(CoverageLink{});
-    case Link::kQuadBeat:
+    case LinkId::kQuadBeat:
       return visit(QuadBeatLink{});
-    case Link::kTestedBeat:
+    case LinkId::kTestedBeat:
       break;
   }
   return visit(TestedBeatLink{});
@@ -73,20 +73,20 @@ const char* link_name(int number) {
   return number >= 0 && number < HALFSPACE_LINKS ? kNames[static_cast<std::size_t>(number)] : "?";
 }
 
-Link link_of(int number, Link first, Link last) {
+LinkId link_of(int number, LinkId first, LinkId last) {
   if (number < static_cast<int>(first) || number > static_cast<int>(last)) {
     throw InputError(fmt::format("link {} ({}) cannot be used here; legal: {} ({}) to {} ({})", number,
                                  link_name(number), static_cast<int>(first), link_name(first),
                                  static_cast<int>(last), link_name(last)));
   }
-  return static_cast<Link>(number);
+  return static_cast<LinkId>(number);
 }
 
-int link_bits(Link link, const Widths& widths) {
+int link_bits(LinkId link, const Widths& widths) {
   return with_layout(link, [&](auto layout) { return layout.bits(widths); });
 }
 
-std::vector<FieldSlot> link_fields(Link link, const Widths& widths) {
+std::vector<FieldSlot> link_fields(LinkId link, const Widths& widths) {
   return with_layout(link, [&](auto layout) { return fields_of(layout, widths); });
 }
 

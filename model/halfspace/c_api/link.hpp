@@ -14,7 +14,7 @@
 namespace halfspace::c_api {
 
 /// In the order of the units.
-enum class Link : std::uint8_t {
+enum class LinkId : std::uint8_t {
   kTriangle = HALFSPACE_TRIANGLE,
   kSetupTriangle = HALFSPACE_SETUP_TRIANGLE,
   kSlot = HALFSPACE_SLOT,
@@ -85,16 +85,16 @@ using TestedBeatLink = Layout<TestedBeat>;
 
 /// "coverage"; "?" for a number that is no link.
 const char* link_name(int number);
-inline const char* link_name(Link link) { return link_name(static_cast<int>(link)); }
+inline const char* link_name(LinkId link) { return link_name(static_cast<int>(link)); }
 
 /// Throws InputError for a number outside `first` to `last`.
-Link link_of(int number, Link first, Link last);
+LinkId link_of(int number, LinkId first, LinkId last);
 
-int link_bits(Link link, const Widths& widths);
+int link_bits(LinkId link, const Widths& widths);
 
 /// The fields of a link's packet, the most significant first; "state.format" where it carries several
 /// structs.
-std::vector<FieldSlot> link_fields(Link link, const Widths& widths);
+std::vector<FieldSlot> link_fields(LinkId link, const Widths& widths);
 
 /// "0x1f", or "-3" where the field is signed.
 std::string field_text(const FieldSlot& field, std::span<const std::uint32_t> words);

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "halfspace/c_api/input_checks.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/tile_walker.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/tile_size.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/units/early_z.hpp"
-#include "halfspace/units/edge_evaluator.hpp"
 #include "halfspace/units/quad_beats.hpp"
-#include "halfspace/units/quad_generator.hpp"
-#include "halfspace/units/setup.hpp"
 
 namespace halfspace::c_api {
 namespace {
@@ -37,55 +39,76 @@ SetupTriangle depth_part(const DepthEquationPacket& equation) {
   return triangle;
 }
 
+/// The units' view of a draw. Whatever leaves early_z has its depth, as where quads are recorded.
+DrawContext draw_context(const DrawStatePacket& packet, const Widths& widths) {
+  const auto format = static_cast<DepthFormat>(packet.format);
+  DrawContext draw;
+  draw.setup = {.sub_pixel_bits = widths.SubPixelBits,
+                .front_positive_area = packet.front_positive_area != 0,
+                .cull_front = packet.cull_front != 0,
+                .cull_back = packet.cull_back != 0,
+                .bottom_left_rule = packet.bottom_left_rule != 0,
+                .bounds = {},
+                .depth_format = format};
+  if (packet.empty == 0) {
+    draw.setup.bounds = {.x_first = packet.x_first,
+                         .y_first = packet.y_first,
+                         .x_last = packet.x_last,
+                         .y_last = packet.y_last};
+  }
+  draw.early_z = {.test = packet.test != 0,
+                  .write = packet.write != 0,
+                  .func = static_cast<DepthFunc>(packet.func),
+                  .format = format,
+                  .sub_pixel_bits = widths.SubPixelBits};
+  draw.record_quads = true;
+  return draw;
+}
+
 template <int TileSize>
 class Chain final : public UnitChain {
  public:
-  explicit Chain(ChainContext& context) : context_(context), widths_(context.widths), slots_(256) {}
+  explicit Chain(ChainContext& context)
+      : context_(context), widths_(context.widths), walker_(context.walker), slots_(256) {
+    any_draw_.setup.sub_pixel_bits = widths_.SubPixelBits;
+  }
 
-  void put(Link link, std::span<const std::uint32_t> words) override {
+  void put(LinkId link, std::span<const std::uint32_t> words) override {
     switch (link) {
-      case Link::kTriangle:
+      case LinkId::kTriangle:
         std::apply([&](const auto&... packets) { triangle(packets...); },
                    TriangleLink::unpack(widths_, words));
         return;
-      case Link::kSetupTriangle:
+      case LinkId::kSetupTriangle:
         std::apply([&](const auto&... packets) { setup_triangle(packets...); },
                    SetupTriangleLink::unpack(widths_, words));
         return;
-      case Link::kSlot:
+      case LinkId::kSlot:
         std::apply([&](const auto&... packets) { slot(packets...); }, SlotLink::unpack(widths_, words));
         return;
-      case Link::kTileJob:
-        evaluate(unpack<TileJob>(words, widths_));
+      case LinkId::kTileJob:
+        evaluate(unpack<TileJob>(words, widths_), TileWork::kEvaluate);
         return;
-      case Link::kCoverage:
+      case LinkId::kCoverage:
         covered(unpack<Coverage>(words, widths_));
         return;
-      case Link::kQuadBeat:
+      case LinkId::kQuadBeat:
         beat(unpack<QuadBeat>(words, widths_));
         return;
-      case Link::kTestedBeat:
+      case LinkId::kTestedBeat:
         return;
     }
   }
 
   void reset() override {
-    next_slot_ = 0;
+    walker_.reset();
     slots_.assign(slots_.size(), std::nullopt);
     burst_.clear();
   }
 
-  // What tile_walker calls.
-  void decision(int /*x*/, int /*y*/, int /*size*/, TileVerdict /*verdict*/) {}
-  void tile(const TileJob& job, TileWork /*work*/) {
-    has_job_ = true;
-    emit<TileJobLink>(Link::kTileJob, job);
-    evaluate(job);
-  }
-
  private:
   template <class Layout, class... Packets>
-  void emit(Link link, const Packets&... packets) {
+  void emit(LinkId link, const Packets&... packets) {
     if (!context_.watched[static_cast<std::size_t>(link)]) {
       return;
     }
@@ -106,30 +129,20 @@ class Chain final : public UnitChain {
     for (std::size_t i = 0; i < 3; ++i) {
       in.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
     }
-    const auto format = static_cast<DepthFormat>(draw.format);
-    SetupState state{.sub_pixel_bits = widths_.SubPixelBits,
-                     .front_positive_area = draw.front_positive_area != 0,
-                     .cull_front = draw.cull_front != 0,
-                     .cull_back = draw.cull_back != 0,
-                     .bottom_left_rule = draw.bottom_left_rule != 0,
-                     .bounds = {},
-                     .depth_format = format};
-    if (draw.empty == 0) {
-      state.bounds = {
-          .x_first = draw.x_first, .y_first = draw.y_first, .x_last = draw.x_last, .y_last = draw.y_last};
-    }
+    DrawContext context = draw_context(draw, widths_);
     SetupTriangle out;
-    if (setup(in, state, out) != SetupVerdict::kDrawn) {
+    if (!passage::setup(in, context, out)) {
       return;
     }
-    const DepthEquationPacket equation = to_packet(out, format);
-    emit<SetupTriangleLink>(Link::kSetupTriangle, to_packet(out, context_.walker, TileSize), equation, draw);
+    const DepthEquationPacket equation = to_packet(out, context.setup.depth_format);
+    emit<SetupTriangleLink>(LinkId::kSetupTriangle, to_packet(out, context_.walker, TileSize), equation,
+                            draw);
     walk(out, equation, draw);
   }
 
   void setup_triangle(const SetupTrianglePacket& packet, const DepthEquationPacket& equation,
                       const DrawStatePacket& draw) {
-    if (!context_.reaches(Link::kSlot)) {
+    if (!context_.reaches(LinkId::kSlot)) {
       return;
     }
     SetupTriangle in;
@@ -146,7 +159,7 @@ class Chain final : public UnitChain {
       in.edge[i].c = packet.e[i] - from_zero.e[i];
     }
     check_walk(packet, in, context_.walker, widths_);
-    if (context_.reaches(Link::kTestedBeat)) {
+    if (context_.reaches(LinkId::kTestedBeat)) {
       check_kept(equation, draw);
       if (draw.format != 0) {
         check_equation_of(equation, in);
@@ -157,82 +170,78 @@ class Chain final : public UnitChain {
   }
 
   void walk(const SetupTriangle& triangle, const DepthEquationPacket& equation, const DrawStatePacket& draw) {
-    if (!context_.reaches(Link::kSlot)) {
+    if (!context_.reaches(LinkId::kSlot)) {
       return;
     }
-    emit<SlotLink>(Link::kSlot, SlotNumber{next_slot_}, equation, draw);
-    slots_[next_slot_] = Slot{depth_part(equation), draw};
-    has_job_ = false;
-    tile_walker<TileSize>(triangle, context_.walker, next_slot_, *this);
-    next_slot_ = static_cast<std::uint8_t>(next_slot_ + (has_job_ ? 1 : 0));
+    const std::uint8_t slot = walker_.slot();
+    emit<SlotLink>(LinkId::kSlot, SlotNumber{slot}, equation, draw);
+    slots_[slot] = Slot{depth_part(equation), draw};
+    walker_.walk<TileSize>(triangle, any_draw_, [this](const TileJob& job, TileWork work, std::uint32_t) {
+      emit<TileJobLink>(LinkId::kTileJob, job);
+      evaluate(job, work);
+    });
   }
 
   void slot(const SlotNumber& number, const DepthEquationPacket& equation, const DrawStatePacket& draw) {
-    if (!context_.reaches(Link::kTestedBeat)) {
+    if (!context_.reaches(LinkId::kTestedBeat)) {
       return;
     }
     check_kept(equation, draw);
     slots_[number.slot] = Slot{depth_part(equation), draw};
   }
 
-  void evaluate(const TileJob& job) {
-    if (context_.reaches(Link::kCoverage)) {
-      const Coverage coverage = edge_evaluator<TileSize>(job, widths_.SubPixelBits);
-      emit<CoverageLink>(Link::kCoverage, coverage);
+  void evaluate(const TileJob& job, TileWork work) {
+    if (context_.reaches(LinkId::kCoverage)) {
+      const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, any_draw_);
+      emit<CoverageLink>(LinkId::kCoverage, coverage);
       covered(coverage);
     }
   }
 
   void covered(const Coverage& coverage) {
-    if (!context_.reaches(Link::kQuadBeat)) {
+    if (!context_.reaches(LinkId::kQuadBeat)) {
       return;
     }
-    const QuadBurst burst = quad_generator<TileSize>(coverage);
-    for (const QuadBeat& beat : quad_beats<TileSize>(burst, widths_)) {
-      emit<QuadBeatLink>(Link::kQuadBeat, beat);
+    if (!any(coverage.mask)) {
+      return;
     }
-    if (any(coverage.mask)) {
-      test(burst);
+    const Burst burst = passage::quad_generator<TileSize>(coverage, any_draw_);
+    for (const QuadBeat& beat : quad_beats<TileSize>(burst.packet, widths_)) {
+      emit<QuadBeatLink>(LinkId::kQuadBeat, beat);
     }
+    test(burst);
   }
 
-  void test(const QuadBurst& burst) {
-    if (!context_.reaches(Link::kTestedBeat)) {
+  void test(const Burst& burst) {
+    if (!context_.reaches(LinkId::kTestedBeat)) {
       return;
     }
-    const Coverage& coverage = burst.coverage;
+    const Coverage& coverage = burst.packet.coverage;
     const std::optional<Slot>& slot = slots_[coverage.slot];
     if (!slot) {
       throw InputError(fmt::format("slot is {}; legal: one that was put on link {} ({}) before",
-                                   coverage.slot, HALFSPACE_SLOT, link_name(Link::kSlot)));
+                                   coverage.slot, HALFSPACE_SLOT, link_name(LinkId::kSlot)));
     }
     const DrawStatePacket& draw = slot->draw;
-    const EarlyZState state{.test = draw.test != 0,
-                            .write = draw.write != 0,
-                            .func = static_cast<DepthFunc>(draw.func),
-                            .format = static_cast<DepthFormat>(draw.format),
-                            .sub_pixel_bits = widths_.SubPixelBits};
+    DrawContext context = draw_context(draw, widths_);
     std::uint32_t* stored = nullptr;
-    if (state.test) {
+    if (context.early_z.test) {
       check_target(draw, coverage.tile_x * TileSize, coverage.tile_y * TileSize);
       stored = context_.surfaces.of_draw(draw).codes.tile(coverage.tile_x, coverage.tile_y);
     }
     TileCodes<TileSize> codes{};
-    if (state.format != DepthFormat::kNone) {
+    if (context.early_z.format != DepthFormat::kNone) {
       check_samples(coverage, slot->triangle, widths_);
     }
-    const TileMask passed = early_z<TileSize>(slot->triangle, burst, state, stored, codes);
-    if (!state.test && state.format != DepthFormat::kNone) {
-      interpolate_tile<TileSize>(slot->triangle, burst, state, codes);
-    }
-    for (const TestedBeat& beat : tested_beats<TileSize>(burst, passed, codes, widths_)) {
-      emit<TestedBeatLink>(Link::kTestedBeat, beat);
+    const TileMask passed = passage::z_test<TileSize>(slot->triangle, burst, context, stored, codes);
+    for (const TestedBeat& beat : tested_beats<TileSize>(burst.packet, passed, codes, widths_)) {
+      emit<TestedBeatLink>(LinkId::kTestedBeat, beat);
     }
   }
 
   /// A burst is complete with its last beat; it must be the one that quad_generator makes of what it covers.
   void beat(const QuadBeat& next) {
-    if (!context_.reaches(Link::kTestedBeat)) {
+    if (!context_.reaches(LinkId::kTestedBeat)) {
       return;
     }
     const int most = (widths_.TileQuads + widths_.QuadWidth - 1) / widths_.QuadWidth;
@@ -251,7 +260,7 @@ class Chain final : public UnitChain {
     }
   }
 
-  QuadBurst burst_of_beats() const {
+  Burst burst_of_beats() {
     Coverage coverage{.slot = burst_[0].slot,
                       .tile_x = burst_[0].tile_x,
                       .tile_y = burst_[0].tile_y,
@@ -266,14 +275,14 @@ class Chain final : public UnitChain {
         set_row<TileSize>(coverage.mask, y + 1, (mask >> 2) << x);
       }
     }
-    const QuadBurst burst = quad_generator<TileSize>(coverage);
-    const std::vector<QuadBeat> legal = quad_beats<TileSize>(burst, widths_);
+    const Burst burst = passage::quad_generator<TileSize>(coverage, any_draw_);
+    const std::vector<QuadBeat> legal = quad_beats<TileSize>(burst.packet, widths_);
     if (legal.size() != burst_.size()) {
       throw InputError(fmt::format("a burst of {} beats; legal: {}, since it has {} quads", burst_.size(),
-                                   legal.size(), popcount(burst.quads)));
+                                   legal.size(), burst.quads));
     }
-    const std::vector<FieldSlot> fields = link_fields(Link::kQuadBeat, widths_);
-    std::vector<std::uint32_t> want(words_for(link_bits(Link::kQuadBeat, widths_)));
+    const std::vector<FieldSlot> fields = link_fields(LinkId::kQuadBeat, widths_);
+    std::vector<std::uint32_t> want(words_for(link_bits(LinkId::kQuadBeat, widths_)));
     std::vector<std::uint32_t> got(want.size());
     for (std::size_t i = 0; i < legal.size(); ++i) {
       pack(legal[i], widths_, want);
@@ -296,7 +305,7 @@ class Chain final : public UnitChain {
 
   /// The pixel lies in a tile of the draw's surface, if early_z is to test there.
   void check_target(const DrawStatePacket& draw, int x, int y) const {
-    if (draw.test == 0 || !context_.reaches(Link::kTestedBeat)) {
+    if (draw.test == 0 || !context_.reaches(LinkId::kTestedBeat)) {
       return;
     }
     const auto& codes = context_.surfaces.of_draw(draw).codes;
@@ -311,8 +320,8 @@ class Chain final : public UnitChain {
 
   ChainContext& context_;
   const Widths& widths_;
-  std::uint8_t next_slot_ = 0;
-  bool has_job_ = false;  ///< the triangle in the walker has one
+  passage::TileWalker walker_;
+  DrawContext any_draw_;  ///< for units that do not look at the draw's state
   std::vector<std::optional<Slot>> slots_;
   std::vector<QuadBeat> burst_;  ///< beats that were put, of a burst that is not complete
 };
@@ -320,14 +329,9 @@ class Chain final : public UnitChain {
 }  // namespace
 
 std::unique_ptr<UnitChain> make_unit_chain(ChainContext& context) {
-  switch (context.widths.TileSize) {
-    case 4:
-      return std::make_unique<Chain<4>>(context);
-    case 16:
-      return std::make_unique<Chain<16>>(context);
-    default:
-      return std::make_unique<Chain<8>>(context);
-  }
+  return with_tile_size(context.widths.TileSize, [&](auto size) -> std::unique_ptr<UnitChain> {
+    return std::make_unique<Chain<size()>>(context);
+  });
 }
 
 }  // namespace halfspace::c_api

@@ -21,9 +21,9 @@ struct ChainContext {
   DepthSurfaces surfaces;
   std::vector<ExpectedPackets> expected;  ///< by link
   std::array<bool, HALFSPACE_LINKS> watched{};
-  Link last = Link::kTriangle;  ///< the last that is watched: no unit behind it works
+  LinkId last = LinkId::kTriangle;  ///< the last that is watched: no unit behind it works
 
-  [[nodiscard]] bool reaches(Link link) const { return last >= link; }
+  [[nodiscard]] bool reaches(LinkId link) const { return last >= link; }
 };
 
 class UnitChain {
@@ -35,7 +35,7 @@ class UnitChain {
 
   /// Takes a packet of a link and pushes what follows from it onto the watched links behind. Throws
   /// InputError; then packets may have been pushed, but nothing else has changed.
-  virtual void put(Link link, std::span<const std::uint32_t> words) = 0;
+  virtual void put(LinkId link, std::span<const std::uint32_t> words) = 0;
 
   /// As after a reset of the RTL.
   virtual void reset() = 0;

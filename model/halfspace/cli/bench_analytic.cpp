@@ -28,10 +28,8 @@ double percent_off(std::uint64_t estimate, std::uint64_t cycles) {
 }
 
 void print_error(const Frame& frame, const std::string& name, const Config& config) {
-  AnalyticFrame estimate;
-  TimedRun run;
-  run_analytic(frame, config, false, nullptr, estimate);
-  run_recurrence(frame, config, false, nullptr, run);
+  const AnalyticFrame estimate = run_analytic(frame, config).estimate;
+  const FrameCycles recurrence = run_recurrence(frame, config).cycles;
   double sum = 0;
   double worst = 0;
   std::uint64_t long_draws = 0;
@@ -39,8 +37,8 @@ void print_error(const Frame& frame, const std::string& name, const Config& conf
   std::uint64_t spans = 0;
   std::uint64_t before = 0;
   for (std::size_t i = 0; i < estimate.draws.size(); ++i) {
-    const std::uint64_t span = run.cycles.draws[i].end - before;
-    before = run.cycles.draws[i].end;
+    const std::uint64_t span = recurrence.draws[i].end - before;
+    before = recurrence.draws[i].end;
     const std::uint64_t cycles = estimate.draws[i].cycles;
     off += cycles > span ? cycles - span : span - cycles;
     spans += span;
@@ -53,7 +51,7 @@ void print_error(const Frame& frame, const std::string& name, const Config& conf
     worst = std::abs(error) > std::abs(worst) ? error : worst;
   }
   fmt::print("| {} | {} | {} | {} | {:+.1f} | {:.1f} | {} | {:.1f} | {:+.1f} |\n", frame.name, name,
-             run.cycles.cycles, estimate.cycles, percent_off(estimate.cycles, run.cycles.cycles),
+             recurrence.cycles, estimate.cycles, percent_off(estimate.cycles, recurrence.cycles),
              100.0 * static_cast<double>(off) / static_cast<double>(std::max<std::uint64_t>(spans, 1)),
              long_draws, long_draws == 0 ? 0 : sum / static_cast<double>(long_draws), worst);
 }

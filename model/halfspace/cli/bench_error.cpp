@@ -1,9 +1,9 @@
 /// halfspace bench error: run time against error, every fidelity beside the RTL on the same frames.
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
@@ -11,13 +11,10 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/error_table.hpp"
 #include "halfspace/report/output_folder.hpp"
+#include "halfspace/run/run.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
-#include "halfspace/timing/analytic/analytic.hpp"
-#include "halfspace/timing/functional.hpp"
-#include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
-#include "halfspace/timing/systemc/run_systemc.hpp"
 
 namespace halfspace {
 namespace {
@@ -46,75 +43,43 @@ struct ErrorOptions {
   }
 };
 
-using RunOnce = double(const Frame&, const Config&, const RtlOptions&, FidelityRun&);
-
-double functional_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/,
-                       FidelityRun& run) {
-  return milliseconds([&] { run.result = run_functional(frame, config, false, nullptr); });
-}
-
-double analytic_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/, FidelityRun& run) {
-  AnalyticFrame& estimate = run.estimate.emplace();
-  return milliseconds([&] { run.result = run_analytic(frame, config, false, nullptr, estimate); });
-}
-
-double recurrence_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/,
-                       FidelityRun& run) {
-  TimedRun timed;
-  const double time =
-      milliseconds([&] { run.result = run_recurrence(frame, config, false, nullptr, timed); });
-  run.cycles = std::move(timed.cycles);
-  return time;
-}
-
-double systemc_once(const Frame& frame, const Config& config, const RtlOptions& /*rtl*/, FidelityRun& run) {
-  TimedRun timed;
-  const double time =
-      milliseconds([&] { run.result = run_systemc(frame, config, false, nullptr, timed, {}); });
-  run.cycles = std::move(timed.cycles);
-  return time;
-}
-
-double rtl_once(const Frame& frame, const Config& config, const RtlOptions& rtl, FidelityRun& run) {
+/// Runs a frame once, puts what came of it in place of what an earlier run left, and returns milliseconds.
+/// Loading a verilated pipeline does not count.
+double run_once(Fidelity fidelity, const Frame& frame, const Config& config, const RtlOptions& rtl,
+                FidelityRun& to) {
+  RunResult& result = to;
+  if (fidelity != Fidelity::kRtl) {
+    return milliseconds([&] { result = run(fidelity, frame, config); });
+  }
   const std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl.pipeline(config);
-  TimedRun timed;
-  rtl::PacketReport report;
-  const double time =
-      milliseconds([&] { run.result = run_rtl(frame, config, false, nullptr, timed, *pipeline, report); });
-  run.cycles = std::move(timed.cycles);
-  run.packets = {.compared = report.compared, .different = report.different};
-  if (report.different != 0) {
-    fmt::print(stderr, "halfspace: {}: RTL and model differ: {}\n", frame.name, report.first);
+  const double time = milliseconds([&] {
+    RtlResult verilated = run_rtl(frame, config, {}, *pipeline);
+    result.frame = std::move(verilated.timed.frame);
+    result.cycles = std::move(verilated.timed.cycles);
+    result.rtl = std::move(verilated.report);
+  });
+  if (result.rtl->different != 0) {
+    fmt::print(stderr, "halfspace: {}: RTL and model differ: {}\n", frame.name, result.rtl->first);
   }
   return time;
 }
 
-/// Each runs a frame once, puts what came of it in place of what an earlier run left, and returns
-/// milliseconds.
-struct Fidelity {
-  const char* name;
-  RunOnce* run;
-};
-constexpr std::array kFidelities{Fidelity{"functional", functional_once}, Fidelity{"analytic", analytic_once},
-                                 Fidelity{"recurrence", recurrence_once}, Fidelity{"systemc", systemc_once},
-                                 Fidelity{"rtl", rtl_once}};
-
 WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOptions& options) {
-  std::vector<FidelityRun> runs(kFidelities.size());
+  std::vector<FidelityRun> runs(kFidelityInfo.size());
   ProgressBar bar(frame.name);
   const auto turns = static_cast<std::size_t>(options.repeat) + 1;
   double rtl_time = 0;
   for (std::size_t turn = 0; turn < turns; ++turn) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       bar.update(turn * runs.size() + i, turns * runs.size());
-      const bool rtl = kFidelities[i].run == rtl_once;
+      const bool rtl = kFidelityInfo[i].rtl;
       // The first turn warms caches and page tables; the RTL, whose runs are long, does without where it is
       // out of time.
       if (rtl && rtl_time > options.rtl_seconds * 1e3) {
         continue;
       }
-      const double time = kFidelities[i].run(frame, config, options.rtl, runs[i]);
-      runs[i].fidelity = kFidelities[i].name;
+      const double time = run_once(kFidelityInfo[i].fidelity, frame, config, options.rtl, runs[i]);
+      runs[i].fidelity = kFidelityInfo[i].name;
       rtl_time += rtl ? time : 0;
       if (turn > 0 || (rtl && rtl_time > options.rtl_seconds * 1e3)) {
         runs[i].milliseconds.push_back(time);

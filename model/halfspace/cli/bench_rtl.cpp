@@ -7,6 +7,7 @@
 #include "halfspace/cli/options.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/input_trace.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 
@@ -22,9 +23,8 @@ struct RtlBenchOptions {
 
 void print_speed(const Frame& frame, const Config& config, const RtlOptions& rtl, int repeat) {
   rtl::InputTrace trace;
-  TimedRun first;
-  rtl::PacketReport report;
-  run_rtl(frame, config, false, nullptr, first, *rtl::traced(rtl.pipeline(config), trace), report);
+  const FrameCycles first =
+      run_rtl(frame, config, {}, *rtl::traced(rtl.pipeline(config), trace)).timed.cycles;
   std::vector<double> alone;
   std::vector<double> checked;
   std::vector<double> model;
@@ -33,18 +33,18 @@ void print_speed(const Frame& frame, const Config& config, const RtlOptions& rtl
     std::uint64_t digest = 0;
     alone.push_back(milliseconds([&] { digest = trace.play(*played); }));
     const std::unique_ptr<rtl::VerilatedPipeline> run = rtl.pipeline(config);
-    TimedRun timed;
-    checked.push_back(milliseconds([&] { run_rtl(frame, config, false, nullptr, timed, *run, report); }));
-    TimedRun recurrence;
-    model.push_back(milliseconds([&] { run_recurrence(frame, config, false, nullptr, recurrence); }));
-    if (digest != trace.digest() || timed.cycles != first.cycles || recurrence.cycles != first.cycles) {
+    FrameCycles again;
+    checked.push_back(milliseconds([&] { again = run_rtl(frame, config, {}, *run).timed.cycles; }));
+    FrameCycles recurrence;
+    model.push_back(milliseconds([&] { recurrence = run_recurrence(frame, config).cycles; }));
+    if (digest != trace.digest() || again != first || recurrence != first) {
       throw InputError(fmt::format("{}: runs disagree: rtl {} and {}, recurrence {} cycles", frame.name,
-                                   first.cycles.cycles, timed.cycles.cycles, recurrence.cycles.cycles));
+                                   first.cycles, again.cycles, recurrence.cycles));
     }
   }
-  const auto cycles = static_cast<double>(first.cycles.cycles);
+  const auto cycles = static_cast<double>(first.cycles);
   fmt::print("| {} | {} | {:.0f} | {:.3f} | {:.0f} | {:.3f} | {:.2f} | {:.0f} | {:.0f} |\n", frame.name,
-             first.cycles.cycles, median(alone), cycles / median(alone) / 1e3, median(checked),
+             first.cycles, median(alone), cycles / median(alone) / 1e3, median(checked),
              cycles / median(checked) / 1e3, median(model), median(alone) / median(model),
              median(checked) / median(model));
 }

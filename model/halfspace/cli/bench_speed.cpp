@@ -5,8 +5,8 @@
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/scene/load.hpp"
-#include "halfspace/timing/functional.hpp"
 
 namespace halfspace {
 namespace {
@@ -22,8 +22,7 @@ void print_speed(const Frame& frame, const Config& config, int repeat) {
   std::vector<double> times;
   Counters counters;
   for (int i = 0; i <= repeat; ++i) {
-    const double time =
-        milliseconds([&] { counters = run_functional(frame, config, false, nullptr).counters; });
+    const double time = milliseconds([&] { counters = run_functional(frame, config).counters; });
     if (i > 0) {  // the first run warms caches and page tables
       times.push_back(time);
     }

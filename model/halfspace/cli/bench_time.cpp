@@ -5,10 +5,10 @@
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/timing/analytic/analytic.hpp"
-#include "halfspace/timing/functional.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
@@ -47,20 +47,19 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
   std::vector<double> one;
   std::vector<double> batch;
   std::vector<double> singly;
-  TimedRun run;
-  TimedRun events;
-  Retimer retimer(record_frame(frame, config, nullptr));
+  std::uint64_t cycles = 0;
+  std::uint64_t events = 0;
+  Retimer retimer(record_frame(frame, config));
   const std::vector<Config> machines = neighbours(config);
   for (int i = 0; i <= repeat; ++i) {
-    AnalyticFrame estimate;
     RetimedFrame retimed;
     std::vector<RetimedFrame> all;
     std::vector<RetimedFrame> each;
     const double times[] = {
-        milliseconds([&] { run_functional(frame, config, false, nullptr); }),
-        milliseconds([&] { run_analytic(frame, config, false, nullptr, estimate); }),
-        milliseconds([&] { run_recurrence(frame, config, false, nullptr, run); }),
-        milliseconds([&] { run_systemc(frame, config, false, nullptr, events, {}); }),
+        milliseconds([&] { run_functional(frame, config); }),
+        milliseconds([&] { run_analytic(frame, config); }),
+        milliseconds([&] { cycles = run_recurrence(frame, config).cycles.cycles; }),
+        milliseconds([&] { events = run_systemc(frame, config).cycles.cycles; }),
         milliseconds([&] { retimed = retimer.retime(config); }),
         milliseconds([&] { all = retimer.retime(machines); }),
         milliseconds([&] {
@@ -69,9 +68,9 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
           }
         }),
     };
-    if (retimed.cycles != run.cycles.cycles || events.cycles.cycles != run.cycles.cycles || all != each) {
+    if (retimed.cycles != cycles || events != cycles || all != each) {
       throw InputError(fmt::format("{}: engines disagree: recurrence {}, systemc {}, retime {} cycles",
-                                   frame.name, run.cycles.cycles, events.cycles.cycles, retimed.cycles));
+                                   frame.name, cycles, events, retimed.cycles));
     }
     if (i == 0) {  // warms caches and page tables
       continue;
@@ -86,8 +85,8 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
   fmt::print(
       "| {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} "
       "|\n",
-      frame.name, run.cycles.cycles, f, median(analytic), r, median(systemc), median(one), median(batch),
-      r / f, median(systemc) / r, r / median(one), median(singly) / median(batch));
+      frame.name, cycles, f, median(analytic), r, median(systemc), median(one), median(batch), r / f,
+      median(systemc) / r, r / median(one), median(singly) / median(batch));
 }
 
 void bench_time(const TimeOptions& options) {

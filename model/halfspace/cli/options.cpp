@@ -183,15 +183,20 @@ void RtlOptions::add_to(CLI::App& command) {
       ->type_name("FILE");
 }
 
-std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& config) const {
+void RtlOptions::apply(RunOptions& run) const {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  std::unique_ptr<rtl::VerilatedPipeline> pipeline =
-      rtl::load_pipeline(config,
-                         folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace"
-                                        : std::filesystem::path(folder),
-                         parse_seed("--rtl-seed", seed));
-  if (!wave.empty()) {
-    pipeline->trace_to(wave);
+  run.rtl_folder = folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace"
+                                  : std::filesystem::path(folder);
+  run.rtl_seed = parse_seed("--rtl-seed", seed);
+  run.wave = wave;
+}
+
+std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& config) const {
+  RunOptions run;
+  apply(run);
+  std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(config, run.rtl_folder, run.rtl_seed);
+  if (!run.wave.empty()) {
+    pipeline->trace_to(run.wave);
   }
   return pipeline;
 }

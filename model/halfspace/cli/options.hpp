@@ -8,6 +8,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/report/timeline.hpp"
+#include "halfspace/run/run.hpp"
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/rtl/verilated_pipeline.hpp"
@@ -54,6 +55,8 @@ struct RtlOptions {
 
   void add_to(CLI::App& command);
   void add_folder_to(CLI::App& command);
+  /// Puts them where a run takes them. Throws InputError.
+  void apply(RunOptions& run) const;
   /// Throws InputError.
   [[nodiscard]] std::unique_ptr<rtl::VerilatedPipeline> pipeline(const Config& config) const;
 };

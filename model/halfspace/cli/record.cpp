@@ -7,7 +7,6 @@
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
-#include "halfspace/timing/frame_result.hpp"
 #include "halfspace/timing/record/frame_record_file.hpp"
 
 namespace halfspace {
@@ -34,8 +33,9 @@ void record(const RecordOptions& options) {
   RecordObserver observer(frame.name);
   const FrameRecord record = record_frame(frame, config, &observer);
   write_record(options.out, record);
+  const PacketStream& packets = record.packets;
   fmt::print("{}: {} triangles with {} tile jobs, {} bursts with depth; {} bytes in {}\n", record.name,
-             record.triangles.size(), record.jobs.size(), record.accesses.size(),
+             packets.triangles.size(), packets.jobs.size(), packets.accesses.size(),
              std::filesystem::file_size(options.out), options.out);
 }
 

@@ -397,15 +397,13 @@ FidelityError compare_to_rtl(const FidelityRun& run, const FidelityRun& rtl) {
   FidelityError line;
   line.fidelity = run.fidelity;
   line.milliseconds = run.milliseconds;
-  line.packets = run.packets;
-  line.cycles = run.cycles     ? std::optional(run.cycles->cycles)
-                : run.estimate ? std::optional(run.estimate->cycles)
-                               : std::nullopt;
+  line.packets = run.rtl;
+  line.cycles = run.frame_cycles();
   if (&run == &rtl) {
     return line;
   }
   const FrameCycles& truth = rtl.cycles.value();
-  line.function = compare_function(run.result, rtl.result);
+  line.function = compare_function(run.frame, rtl.frame);
   if (line.cycles) {
     line.error = {.truth = truth.cycles, .cycles = difference(*line.cycles, truth.cycles)};
     line.draws = compare_draws(run.cycles ? spans(*run.cycles) : spans(*run.estimate), spans(truth));
@@ -425,8 +423,8 @@ WorkloadErrors compare_fidelities(const std::string& name, const std::vector<Fid
     throw std::invalid_argument(fmt::format("{}: no run of fidelity {} to compare with", name, kRtl));
   }
   WorkloadErrors workload{.name = name,
-                          .triangles = rtl->result.counters.front_end.triangles,
-                          .fragments = rtl->result.counters.quad_generator.fragments,
+                          .triangles = rtl->frame.counters.front_end.triangles,
+                          .fragments = rtl->frame.counters.quad_generator.fragments,
                           .fidelities = {}};
   for (const FidelityRun& run : runs) {
     workload.fidelities.push_back(compare_to_rtl(run, *rtl));

@@ -11,9 +11,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/report/output_folder.hpp"
-#include "halfspace/timing/analytic/analytic.hpp"
-#include "halfspace/timing/cycle_stats.hpp"
-#include "halfspace/timing/frame_result.hpp"
+#include "halfspace/run/run_result.hpp"
 
 namespace halfspace {
 
@@ -21,19 +19,9 @@ inline constexpr const char* kErrorFile = "error.json";
 inline constexpr const char* kErrorSchema = "halfspace-error";
 inline constexpr int kErrorSchemaVersion = 1;
 
-/// Of a verilated run: its packets, pixels and counters against those of the C++ units.
-struct PacketComparison {
-  std::uint64_t compared = 0;
-  std::uint64_t different = 0;
-};
-
 /// A fidelity on a frame, as it ran.
-struct FidelityRun {
+struct FidelityRun : RunResult {
   std::string fidelity;
-  FrameResult result;
-  std::optional<FrameCycles> cycles;      ///< where every packet has its time
-  std::optional<AnalyticFrame> estimate;  ///< where draws have
-  std::optional<PacketComparison> packets;
   std::vector<double> milliseconds;  ///< of each timed run, at least one
 };
 
@@ -86,7 +74,7 @@ struct FidelityError {
   std::optional<DrawErrors> draws;
   std::optional<std::array<StageError, kStages>> stages;
   std::optional<FunctionErrors> function;
-  std::optional<PacketComparison> packets;
+  std::optional<rtl::PacketReport> packets;  ///< RTL against the C++ units
 
   [[nodiscard]] double median_milliseconds() const;
   [[nodiscard]] std::optional<double> megacycles_a_second() const;

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "halfspace/machine/functional.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/functional.hpp"
 
 namespace halfspace {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "halfspace/config/keys.hpp"
+#include "halfspace/machine/shape.hpp"
 #include "halfspace/numerics/widths.hpp"
-#include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -149,7 +149,7 @@ std::string raster_pkg() {
       R"(// Widths and packets of the links between the units, for every configuration.
 //
 // Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
-// model/halfspace/units/link_packets.hpp and model/halfspace/timing/cycle_stats.hpp: change those and print this file
+// model/halfspace/units/link_packets.hpp and model/halfspace/machine/shape.hpp: change those and print this file
 // again. A configuration is chosen by defines:
 )";
   for (const Parameter& parameter : kParameters) {
@@ -203,6 +203,12 @@ std::string raster_pkg() {
   for (const StageInfo& stage : kStageInfo) {
     text += activity_enum(stage);
   }
+  text += "\n  // what can happen in a cycle: bits of the probe of the pipeline's bench\n";
+  for (std::size_t i = 0; i < kEvents; ++i) {
+    text.append("  parameter int unsigned Event").append(kEventInfo[i].name);
+    text.append(" = ").append(std::to_string(i)).append(";  // ").append(kEventInfo[i].meaning).append("\n");
+  }
+  text += "  parameter int unsigned EventCount = " + std::to_string(kEvents) + ";\n";
   text += "\nendpackage : raster_pkg\n\n";
   for (const Parameter& parameter : kParameters) {
     text += "`undef " + std::string(parameter.define) + "\n";

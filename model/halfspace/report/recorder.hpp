@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/report/npy.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/functional.hpp"
 
 namespace halfspace {
 

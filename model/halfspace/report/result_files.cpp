@@ -37,11 +37,10 @@ void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t numb
 
 }  // namespace
 
-void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config,
-                        const std::string& fidelity, const FrameResult& result, const RunTime& time,
-                        const Recorder& recorder) {
-  for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
-    const Surface& surface = result.surfaces[i];
+void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
+                        const StallPlan& stalls, const RunResult& result, const Recorder& recorder) {
+  for (std::size_t i = 0; i < result.frame.surfaces.size(); ++i) {
+    const Surface& surface = result.frame.surfaces[i];
     if (surface.codes.empty()) {
       continue;  // no target uses this number
     }
@@ -50,14 +49,14 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
       continue;  // no pictures asked for
     }
     const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, i)); };
-    write_png(picture("shaded"), shaded_picture(frame, result, i));
+    write_png(picture("shaded"), shaded_picture(frame, result.frame, i));
     write_png(picture("depth"), depth_picture(surface));
     write_png(picture("overdraw"), overdraw_picture(surface));
     write_png(picture("tiles"), tile_picture(surface, recorder.decisions[i], config.tile_walker.tile_size));
     write_png(picture("quads"), quad_picture(surface, recorder.lanes[i]));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);
-  write_stats(stats, frame, config, fidelity, result, time, folder.files());
+  write_stats(stats, frame, config, fidelity, stalls, result, folder.files());
 }
 
 }  // namespace halfspace

@@ -2,22 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
-#include "halfspace/report/run_time.hpp"
+#include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/frame_result.hpp"
+#include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
 
 /// Writes depth<S>.npy, fragments<S>.npy and survivors<S>.npy of every surface, shaded<S>.png, depth<S>.png,
 /// overdraw<S>.png, tiles<S>.png and quads<S>.png where `recorder` kept the sums, and stats.json.
 /// Throws InputError.
-void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config,
-                        const std::string& fidelity, const FrameResult& result, const RunTime& time,
-                        const Recorder& recorder);
+void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
+                        const StallPlan& stalls, const RunResult& result, const Recorder& recorder);
 
 }  // namespace halfspace

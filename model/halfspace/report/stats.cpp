@@ -109,7 +109,7 @@ Json stalls_json(const StallPlan& plan) {
   for (std::size_t i = 0; i < kStallPoints; ++i) {
     const StallPlan::Rate& rate = plan.rate[i];
     if (rate.percent != 0) {
-      json[kStallPointName[i]] = {{"percent", rate.percent}, {"max_cycles", rate.max_cycles}};
+      json[std::string(kStallPointName[i])] = {{"percent", rate.percent}, {"max_cycles", rate.max_cycles}};
     }
   }
   return json;
@@ -127,17 +127,19 @@ std::uint64_t memory_bytes_written(const FrameResult& result) {
 }
 
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result, const RunTime& time,
+                 Fidelity fidelity, const StallPlan& stalls, const RunResult& run,
                  const std::vector<std::string>& files) {
+  const FrameResult& result = run.frame;
+  const bool packets = info(fidelity).packets;
   Json json;
   json["schema"] = kStatsSchema;
   json["schema_version"] = kStatsSchemaVersion;
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
-  json["fidelity"] = fidelity;
-  const std::optional<std::uint64_t> cycles = time.cycles();
+  json["fidelity"] = info(fidelity).name;
+  const std::optional<std::uint64_t> cycles = run.frame_cycles();
   json["cycles"] = cycles ? Json(*cycles) : Json();
-  json["seed"] = time.packets != nullptr ? Json(time.packets->stalls.seed) : Json();
-  json["stalls"] = time.packets != nullptr ? stalls_json(time.packets->stalls) : Json();
+  json["seed"] = packets ? Json(stalls.seed) : Json();
+  json["stalls"] = packets ? stalls_json(stalls) : Json();
   for (const ConfigKey& key : config_keys(config)) {
     json["config"][key.name] = key.value;
   }
@@ -156,8 +158,8 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
     json["frame"]["time"] = {{"cycles", *cycles},
                              {"quads_per_cycle", ratio(result.counters.quad_generator.quads, *cycles)}};
   }
-  if (time.packets != nullptr) {
-    json["frame"]["time"].update(frame_time_json(time.packets->cycles, result));
+  if (run.cycles) {
+    json["frame"]["time"].update(frame_time_json(*run.cycles, result));
   }
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
@@ -178,10 +180,10 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"target", command.target},
                              {"surface", draw.surface == kNoSurface ? Json() : Json(draw.surface)},
                              {"counters", counters_json(draw.counters)}});
-    if (time.packets != nullptr) {
-      json["draws"].back()["time"] = draw_time_json(time.packets->cycles.draws[i], draw.counters.early_z);
-    } else if (time.estimate != nullptr) {
-      json["draws"].back()["time"] = draw_time_json(time.estimate->draws[i]);
+    if (run.cycles) {
+      json["draws"].back()["time"] = draw_time_json(run.cycles->draws[i], draw.counters.early_z);
+    } else if (run.estimate) {
+      json["draws"].back()["time"] = draw_time_json(run.estimate->draws[i]);
     }
   }
   json["files"] = files;

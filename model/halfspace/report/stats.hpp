@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/report/run_time.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/frame_result.hpp"
+#include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
 
@@ -23,7 +24,7 @@ std::uint64_t memory_bytes_written(const FrameResult& result);
 /// Writes stats.json to `path`. `files` lists the names of all files of the result, stats.json included. The
 /// content depends on frame, configuration, injected stalls and version only. Throws InputError.
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
-                 const std::string& fidelity, const FrameResult& result, const RunTime& time,
+                 Fidelity fidelity, const StallPlan& stalls, const RunResult& result,
                  const std::vector<std::string>& files);
 
 }  // namespace halfspace

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "halfspace/machine/draw_context.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/timing/pipeline.hpp"
 
 namespace halfspace {
 namespace {
@@ -154,7 +154,7 @@ void Timeline::count(std::size_t link, std::uint64_t cycle, std::uint64_t in_use
 }
 
 void Timeline::slice(Stage stage, std::optional<std::size_t> stall, std::uint64_t from, std::uint64_t to) {
-  const Work work = stage == Stage::kZLookup || stage == Stage::kEarlyZ                ? Work::kBurst
+  const Work work = stage == Stage::kZLookup || stage == Stage::kZTest                 ? Work::kBurst
                     : stage == Stage::kEdgeEvaluator || stage == Stage::kQuadGenerator ? Work::kJob
                                                                                        : Work::kTriangle;
   const auto track = static_cast<std::size_t>(stage);

@@ -13,7 +13,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/recurrence/cycle_observer.hpp"
+#include "halfspace/timing/cycle_observer.hpp"
 
 namespace halfspace {
 
@@ -44,10 +44,8 @@ class Timeline final : public CycleObserver {
   Timeline(std::filesystem::path path, const Frame& frame, const Config& config,
            const TimelineChoice& choice);
 
-  /// The tile of the job that comes next, by its top left pixel; without it the job's slices name none.
-  void tile(std::uint32_t x, std::uint32_t y) { next_tile_ = {x, y}; }
-
   void draw(std::uint32_t index) override;
+  void tile(std::uint32_t x, std::uint32_t y) override { next_tile_ = {x, y}; }
   void drained() override;
   void link(Link link, std::uint64_t from, std::uint64_t to) override;
   void slice(Stage stage, std::optional<std::size_t> stall, std::uint64_t from, std::uint64_t to) override;

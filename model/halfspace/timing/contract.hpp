@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "halfspace/config/config.hpp"
@@ -16,6 +17,9 @@ inline constexpr int kWalkerLatency = 2;
 inline constexpr int kQuadLatency = 2;
 inline constexpr int kLookupLatency = 12;
 inline constexpr int kTestLatency = 2;
+
+/// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
+inline constexpr std::size_t kMostCredits = 64;
 
 /// Of the edge evaluator: its pipeline and the output register.
 inline int edge_latency(const Config& config) { return config.edge_evaluator.pipe_stages + 1; }

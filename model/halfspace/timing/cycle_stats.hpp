@@ -1,5 +1,5 @@
 /// Where the cycles of a run went: for each stage busy or a stall reason, for each link its occupancy, for
-/// memory its channels. Reasons are in order of priority; docs/units has their meaning.
+/// memory its channels. Stages, reasons and links are those of machine/shape.hpp.
 #pragma once
 
 #include <array>
@@ -7,51 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "halfspace/machine/shape.hpp"
+
 namespace halfspace {
-
-enum class Stage : std::uint8_t {
-  kSetup,
-  kTileWalker,
-  kEdgeEvaluator,
-  kQuadGenerator,
-  kZLookup,
-  kEarlyZ,
-};
-inline constexpr std::size_t kStages = 6;
-
-inline constexpr std::size_t kMostStallReasons = 5;
-
-struct StageInfo {
-  std::string_view name;
-  std::array<std::string_view, kMostStallReasons> stall;  ///< empty where there is no further reason
-};
-
-inline constexpr std::array<StageInfo, kStages> kStageInfo{{
-    {"setup", {"no_triangle", "divider", "no_credit"}},
-    {"tile_walker", {"no_triangle", "load", "no_credit"}},
-    {"edge_evaluator", {"no_tile", "no_credit"}},
-    {"quad_generator", {"no_coverage", "no_credit"}},
-    {"z_lookup", {"no_burst", "pending_full", "write_back", "fill_buffers", "request"}},
-    {"early_z", {"no_burst", "fill", "write_buffer", "no_credit"}},
-}};
-
-/// Positions in StageInfo::stall. The first of every stage is that it has nothing to do.
-namespace stall {
-inline constexpr std::size_t kNoInput = 0;
-inline constexpr std::size_t kSetupDivider = 1;
-inline constexpr std::size_t kSetupNoCredit = 2;
-inline constexpr std::size_t kWalkerLoad = 1;
-inline constexpr std::size_t kWalkerNoCredit = 2;
-inline constexpr std::size_t kEdgeNoCredit = 1;
-inline constexpr std::size_t kQuadNoCredit = 1;
-inline constexpr std::size_t kLookupPendingFull = 1;
-inline constexpr std::size_t kLookupWriteBack = 2;
-inline constexpr std::size_t kLookupFillBuffers = 3;
-inline constexpr std::size_t kLookupRequest = 4;
-inline constexpr std::size_t kTestFill = 1;
-inline constexpr std::size_t kTestWriteBuffer = 2;
-inline constexpr std::size_t kTestNoCredit = 3;
-}  // namespace stall
 
 struct StageCycles {
   std::uint64_t busy = 0;
@@ -74,20 +32,6 @@ struct StageCycles {
   friend bool operator==(const StageCycles&, const StageCycles&) = default;
 };
 
-/// The FIFOs, by the unit that fills them; the queue and the pending store are inside setup and early_z.
-enum class Link : std::uint8_t {
-  kSetupQueue,
-  kSetup,
-  kTileWalker,
-  kEdgeEvaluator,
-  kQuadGenerator,
-  kEarlyZPending,
-  kEarlyZ,
-};
-inline constexpr std::size_t kLinks = 7;
-inline constexpr std::array<std::string_view, kLinks> kLinkName{
-    "setup_queue", "setup", "tile_walker", "edge_evaluator", "quad_generator", "early_z_pending", "early_z"};
-
 /// Cycles by the number of credits in use, 0 to the capacity.
 using Occupancy = std::vector<std::uint64_t>;
 
@@ -100,12 +44,25 @@ struct CycleStats {
   std::uint64_t read_busy = 0;  ///< cycles in which memory's read channel moves data
   std::uint64_t write_busy = 0;
 
+  /// All but the occupancies, which do not add up.
+  CycleStats& operator+=(const CycleStats& other) {
+    for (std::size_t i = 0; i < kStages; ++i) {
+      stage[i] += other.stage[i];
+    }
+    for (std::size_t i = 0; i < kLinks; ++i) {
+      held[i] += other.held[i];
+      packets[i] += other.packets[i];
+    }
+    read_busy += other.read_busy;
+    write_busy += other.write_busy;
+    return *this;
+  }
   friend bool operator==(const CycleStats&, const CycleStats&) = default;
 };
 
 struct DrawCycles {
-  std::uint64_t end =
-      0;  ///< cycle in which its last burst has left the sink; that of the draw before, if none
+  /// Cycle in which its last burst has left the sink; that of the draw before, if it has none.
+  std::uint64_t end = 0;
   CycleStats stats;
 
   friend bool operator==(const DrawCycles&, const DrawCycles&) = default;
@@ -120,16 +77,32 @@ struct FrameCycles {
   friend bool operator==(const FrameCycles&, const FrameCycles&) = default;
 };
 
-/// When the stages took the packets of a run, one entry a packet, for comparison of engines.
+// clang-format off
+/// T(name, what): the packets whose cycles are noted one by one, for comparison of engines.
+#define HALFSPACE_PACKET_TIMES(T)                            \
+  T(decide, "setup: every triangle, dropped or drawn")       \
+  T(accept, "tile_walker: every triangle that is drawn")     \
+  T(emit,   "tile_walker: every tile job")                   \
+  T(e,      "edge_evaluator: every tile job")                \
+  T(g,      "quad_generator: every coverage")                \
+  T(f,      "z_lookup: every burst")                         \
+  T(b,      "z_test: every burst")                           \
+  T(y,      "sink: every burst")
+// clang-format on
+
+/// When the stages took the packets of a run, one entry a packet.
 struct PacketTimes {
-  std::vector<std::uint64_t> decide;  ///< setup: every triangle, dropped or drawn
-  std::vector<std::uint64_t> accept;  ///< tile_walker: every triangle that is drawn
-  std::vector<std::uint64_t> emit;    ///< tile_walker: every tile job
-  std::vector<std::uint64_t> e;       ///< edge_evaluator: every tile job
-  std::vector<std::uint64_t> g;       ///< quad_generator: every coverage
-  std::vector<std::uint64_t> f;       ///< early_z lookup: every burst
-  std::vector<std::uint64_t> b;       ///< early_z test: every burst
-  std::vector<std::uint64_t> y;       ///< sink: every burst
+#define HALFSPACE_PACKET_TIME(name, what) std::vector<std::uint64_t> name;
+  HALFSPACE_PACKET_TIMES(HALFSPACE_PACKET_TIME)
+#undef HALFSPACE_PACKET_TIME
+
+  /// Calls visit(name, member) for each list.
+  template <class Visit>
+  static void lists(Visit&& visit) {
+#define HALFSPACE_PACKET_TIME(name, what) visit(#name, &PacketTimes::name);
+    HALFSPACE_PACKET_TIMES(HALFSPACE_PACKET_TIME)
+#undef HALFSPACE_PACKET_TIME
+  }
 
   friend bool operator==(const PacketTimes&, const PacketTimes&) = default;
 };

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "halfspace/timing/contract.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
-#include "halfspace/timing/recurrence/machine.hpp"
 
 namespace halfspace {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 
 #include "halfspace/numerics/widths.hpp"
-#include "halfspace/units/early_z.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "halfspace/units/early_z.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/quad_generator.hpp"
+#include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
 

@@ -2,9 +2,36 @@
 
 #include <algorithm>
 
+#include "halfspace/machine/in_order.hpp"
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace {
+namespace {
+
+/// Sums the stream of a frame while the units run.
+class WorkReader final : public StreamReader {
+ public:
+  explicit WorkReader(FrameWork& work) : work_(work) {}
+
+  void begin(std::span<const StreamSurface> surfaces, std::uint32_t /*memory_lines*/) override {
+    surfaces_.assign(surfaces.begin(), surfaces.end());
+  }
+  void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) override {
+    work_.add(part, surfaces_);
+    if (burst_cycles != nullptr) {
+      const auto bursts =
+          std::ranges::count_if(part.jobs, [](const StreamJob& job) { return job.quads() != 0; });
+      burst_cycles->insert(burst_cycles->end(), static_cast<std::size_t>(bursts), 0);
+    }
+  }
+  void end(std::span<const ZFlush> dirty) override { work_.flush.assign(dirty.begin(), dirty.end()); }
+
+ private:
+  FrameWork& work_;
+  std::vector<StreamSurface> surfaces_;
+};
+
+}  // namespace
 
 std::uint64_t fill_cycles(const Config& config) {
   const int cycles = kSetupCullLatency + kSetupDivideLatency + 1 + kWalkerLatency + edge_latency(config) +
@@ -67,12 +94,12 @@ AnalyticFrame analytic_frame(const FrameWork& work, const Config& config) {
   return frame;
 }
 
-FrameResult run_analytic(const Frame& frame, const Config& config, bool keep_visible,
-                         PacketObserver* observer, AnalyticFrame& time) {
+AnalyticResult run_analytic(const Frame& frame, const Config& config, const Watch& watch) {
   FrameWork work;
-  WorkClock clock(work);
-  FrameResult result = run_pipeline(frame, config, keep_visible, observer, clock);
-  time = analytic_frame(work, config);
+  WorkReader reader(work);
+  AnalyticResult result;
+  result.frame = run_in_order(frame, config, watch, &reader);
+  result.estimate = analytic_frame(work, config);
   return result;
 }
 

@@ -2,13 +2,15 @@
 /// draws. Its error against the recurrence is measured: `halfspace bench analytic`.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/timing/analytic/draw_work.hpp"
-#include "halfspace/timing/frame_result.hpp"
 
 namespace halfspace {
 
@@ -47,8 +49,12 @@ AnalyticDraw analytic_draw(const DrawWork& work, const Config& config);
 
 AnalyticFrame analytic_frame(const FrameWork& work, const Config& config);
 
+struct AnalyticResult {
+  FrameResult frame;
+  AnalyticFrame estimate;
+};
+
 /// Runs `frame` as run_functional does, and estimates its time.
-FrameResult run_analytic(const Frame& frame, const Config& config, bool keep_visible,
-                         PacketObserver* observer, AnalyticFrame& time);
+AnalyticResult run_analytic(const Frame& frame, const Config& config, const Watch& watch = {});
 
 }  // namespace halfspace

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/machine/packet_stream.hpp"
 
 namespace halfspace {
 
@@ -18,29 +18,7 @@ struct DrawWork {
   std::array<std::uint32_t, 11> fetched{};       ///< lines read, by the logarithm of their bytes
   std::array<std::uint32_t, 11> written_back{};  ///< lines written, the same way
 
-  void count(std::span<const ZMiss> misses) {
-    for (const ZMiss& miss : misses) {
-      fetched[static_cast<std::size_t>(std::countr_zero(miss.bytes))] += miss.fetch ? 1 : 0;
-      if (miss.write_back) {
-        ++written_back[static_cast<std::size_t>(std::countr_zero(miss.victim_bytes))];
-      }
-    }
-  }
-
-  DrawWork& operator+=(const DrawWork& other) {
-    triangles += other.triangles;
-    drawn += other.drawn;
-    steps += other.steps;
-    const auto add = [](auto& sums, const auto& more) {
-      for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] += more[i];
-      }
-    };
-    add(tiles, other.tiles);
-    add(fetched, other.fetched);
-    add(written_back, other.written_back);
-    return *this;
-  }
+  DrawWork& operator+=(const DrawWork& other);
 };
 
 /// What a frame asks of the machine.
@@ -49,38 +27,9 @@ struct FrameWork {
   DrawWork drawn_clears;                   ///< all of them
   std::vector<std::uint32_t> fast_clears;  ///< tiles of each
   std::vector<ZFlush> flush;
-};
 
-/// The clock that sums.
-class WorkClock {
- public:
-  explicit WorkClock(FrameWork& work) : work_(work) {}
-
-  void start(std::uint32_t /*memory_lines*/) {}
-  void draw(std::uint32_t index) {
-    if (index != kNoDraw) {
-      work_.draws.emplace_back();
-    }
-    at_ = index == kNoDraw ? &work_.drawn_clears : &work_.draws.back();
-  }
-  void dropped() { ++at_->triangles; }
-  void drawn() {
-    ++at_->triangles;
-    ++at_->drawn;
-  }
-  void job(const JobWork& work) {
-    at_->steps += work.steps;
-    ++at_->tiles[static_cast<std::size_t>(work.quads)];
-    at_->count(work.misses);
-  }
-  void walked(std::uint32_t steps) { at_->steps += steps; }
-  [[nodiscard]] static std::uint64_t quad_cycle(int /*quad*/) { return 0; }
-  void fast_clear(std::uint32_t tiles) { work_.fast_clears.push_back(tiles); }
-  void flush(const std::vector<ZFlush>& lines) { work_.flush = lines; }
-
- private:
-  FrameWork& work_;
-  DrawWork* at_ = nullptr;
+  /// Adds a part of a stream; parts come in order.
+  void add(const StreamView& part, std::span<const StreamSurface> surfaces);
 };
 
 }  // namespace halfspace

@@ -18,11 +18,11 @@ constexpr std::uint32_t kVersion = 1;
 
 // Members of a list in the file, one word each.
 constexpr auto kSurfaceWords =
-    std::to_array({&RecordedSurface::tiles_x, &RecordedSurface::tiles, &RecordedSurface::sample_bytes});
-constexpr auto kSegmentWords = std::to_array({&RecordedSegment::surface, &RecordedSegment::touches_depth,
-                                              &RecordedSegment::triangles, &RecordedSegment::dropped_after});
-constexpr auto kTriangleWords = std::to_array(
-    {&RecordedTriangle::dropped_before, &RecordedTriangle::jobs, &RecordedTriangle::steps_after});
+    std::to_array({&StreamSurface::tiles_x, &StreamSurface::tiles, &StreamSurface::sample_bytes});
+constexpr auto kSegmentWords = std::to_array({&StreamSegment::surface, &StreamSegment::touches_depth,
+                                              &StreamSegment::triangles, &StreamSegment::dropped_after});
+constexpr auto kTriangleWords =
+    std::to_array({&StreamTriangle::dropped_before, &StreamTriangle::jobs, &StreamTriangle::steps_after});
 
 class Writer {
  public:
@@ -104,7 +104,7 @@ class Reader {
 
 void check_surfaces(const Reader& reader, const FrameRecord& record) {
   std::uint64_t tiles = 0;
-  for (const RecordedSurface& surface : record.surfaces) {
+  for (const StreamSurface& surface : record.surfaces) {
     tiles += surface.tiles;
     if (surface.tiles != 0 && (surface.tiles_x == 0 || surface.tiles % surface.tiles_x != 0 ||
                                surface.tiles_x > 4096 || surface.tiles / surface.tiles_x > 4096)) {
@@ -120,9 +120,9 @@ void check_surfaces(const Reader& reader, const FrameRecord& record) {
   }
 }
 
-void check_access(const Reader& reader, const FrameRecord& record, const RecordedSurface& surface,
-                  const RecordedAccess& access) {
-  const unsigned bands = (1u << recorded_bands(record.config.tile_walker.tile_size)) - 1;
+void check_access(const Reader& reader, const FrameRecord& record, const StreamSurface& surface,
+                  const StreamAccess& access) {
+  const unsigned bands = (1u << stream_bands(record.config.tile_walker.tile_size)) - 1;
   if (access.tile_x() >= surface.tiles_x || access.tile_y() >= surface.tiles / surface.tiles_x) {
     reader.fail(fmt::format("a burst in tile ({}, {}) of a surface of {} x {} tiles", access.tile_x(),
                             access.tile_y(), surface.tiles_x, surface.tiles / surface.tiles_x));
@@ -141,35 +141,36 @@ void check(const Reader& reader, const FrameRecord& record) {
   std::size_t triangle = 0;
   std::size_t job = 0;
   std::size_t access = 0;
-  for (const RecordedSegment& segment : record.segments) {
-    const bool clear = segment.kind == RecordedSegment::Kind::kFastClear;
+  for (const StreamSegment& segment : record.packets.segments) {
+    const bool clear = segment.kind == StreamSegment::Kind::kFastClear;
     const bool has_surface = segment.surface < record.surfaces.size();
     if (segment.touches_depth > 1 || ((clear || segment.touches_depth == 1) &&
                                       (!has_surface || record.surfaces[segment.surface].tiles == 0))) {
       reader.fail(fmt::format("a draw or clear of depth surface {}, which is not there", segment.surface));
     }
-    if ((clear && segment.triangles != 0) || segment.triangles > record.triangles.size() - triangle) {
+    if ((clear && segment.triangles != 0) || segment.triangles > record.packets.triangles.size() - triangle) {
       reader.fail("more triangles in draws than in the list");
     }
     for (std::uint32_t i = 0; i < segment.triangles; ++i, ++triangle) {
-      if (record.triangles[triangle].jobs > record.jobs.size() - job) {
+      if (record.packets.triangles[triangle].jobs > record.packets.jobs.size() - job) {
         reader.fail("more tile jobs in triangles than in the list");
       }
-      for (std::uint32_t k = 0; k < record.triangles[triangle].jobs; ++k, ++job) {
-        if (record.jobs[job].quads() > most_quads) {
-          reader.fail(
-              fmt::format("{} quads in a tile; legal: at most {}", record.jobs[job].quads(), most_quads));
+      for (std::uint32_t k = 0; k < record.packets.triangles[triangle].jobs; ++k, ++job) {
+        if (record.packets.jobs[job].quads() > most_quads) {
+          reader.fail(fmt::format("{} quads in a tile; legal: at most {}", record.packets.jobs[job].quads(),
+                                  most_quads));
         }
-        if (segment.touches_depth == 1 && record.jobs[job].quads() != 0) {
-          if (access == record.accesses.size()) {
+        if (segment.touches_depth == 1 && record.packets.jobs[job].quads() != 0) {
+          if (access == record.packets.accesses.size()) {
             reader.fail("more bursts with depth than in the list");
           }
-          check_access(reader, record, record.surfaces[segment.surface], record.accesses[access++]);
+          check_access(reader, record, record.surfaces[segment.surface], record.packets.accesses[access++]);
         }
       }
     }
   }
-  if (triangle != record.triangles.size() || job != record.jobs.size() || access != record.accesses.size()) {
+  if (triangle != record.packets.triangles.size() || job != record.packets.jobs.size() ||
+      access != record.packets.accesses.size()) {
     reader.fail("lists are longer than draws and triangles say");
   }
 }
@@ -187,14 +188,14 @@ void write_record(const std::filesystem::path& path, const FrameRecord& record) 
       writer.word(item.*member);
     }
   };
-  writer.list(record.surfaces, [&](const RecordedSurface& s) { put_members(s, kSurfaceWords); });
-  writer.list(record.segments, [&](const RecordedSegment& s) {
+  writer.list(record.surfaces, [&](const StreamSurface& s) { put_members(s, kSurfaceWords); });
+  writer.list(record.packets.segments, [&](const StreamSegment& s) {
     writer.word(static_cast<std::uint32_t>(s.kind));
     put_members(s, kSegmentWords);
   });
-  writer.list(record.triangles, [&](const RecordedTriangle& t) { put_members(t, kTriangleWords); });
-  writer.list(record.jobs, [&](const RecordedJob& j) { writer.word(j.word()); });
-  writer.list(record.accesses, [&](const RecordedAccess& a) { writer.word(a.word()); });
+  writer.list(record.packets.triangles, [&](const StreamTriangle& t) { put_members(t, kTriangleWords); });
+  writer.list(record.packets.jobs, [&](const StreamJob& j) { writer.word(j.word()); });
+  writer.list(record.packets.accesses, [&](const StreamAccess& a) { writer.word(a.word()); });
   write_bytes(path, compress_gzip(writer.bytes()));
 }
 
@@ -220,21 +221,21 @@ FrameRecord parse_record(std::span<const std::byte> bytes, const std::string& na
     }
     return item;
   };
-  record.surfaces = reader.list<RecordedSurface>(
-      kSurfaceWords.size(), [&] { return get_members(RecordedSurface{}, kSurfaceWords); });
-  record.segments = reader.list<RecordedSegment>(kSegmentWords.size() + 1, [&] {
+  record.surfaces = reader.list<StreamSurface>(kSurfaceWords.size(),
+                                               [&] { return get_members(StreamSurface{}, kSurfaceWords); });
+  record.packets.segments = reader.list<StreamSegment>(kSegmentWords.size() + 1, [&] {
     const std::uint32_t kind = reader.word();
-    if (kind > static_cast<std::uint32_t>(RecordedSegment::Kind::kFastClear)) {
+    if (kind > static_cast<std::uint32_t>(StreamSegment::Kind::kFastClear)) {
       reader.fail(fmt::format("a segment of kind {}; legal: 0 to 2", kind));
     }
-    RecordedSegment segment = get_members(RecordedSegment{}, kSegmentWords);
-    segment.kind = static_cast<RecordedSegment::Kind>(kind);
+    StreamSegment segment = get_members(StreamSegment{}, kSegmentWords);
+    segment.kind = static_cast<StreamSegment::Kind>(kind);
     return segment;
   });
-  record.triangles = reader.list<RecordedTriangle>(
-      kTriangleWords.size(), [&] { return get_members(RecordedTriangle{}, kTriangleWords); });
-  record.jobs = reader.list<RecordedJob>(1, [&] { return RecordedJob(reader.word()); });
-  record.accesses = reader.list<RecordedAccess>(1, [&] { return RecordedAccess(reader.word()); });
+  record.packets.triangles = reader.list<StreamTriangle>(
+      kTriangleWords.size(), [&] { return get_members(StreamTriangle{}, kTriangleWords); });
+  record.packets.jobs = reader.list<StreamJob>(1, [&] { return StreamJob(reader.word()); });
+  record.packets.accesses = reader.list<StreamAccess>(1, [&] { return StreamAccess(reader.word()); });
   reader.end();
   check(reader, record);
   return record;

@@ -1,82 +1,52 @@
-#include <fmt/format.h>
-
-#include "halfspace/numerics/error.hpp"
-#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/machine/in_order.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
 
 namespace halfspace {
 namespace {
 
-/// The clock that writes down what passes.
-class RecordingClock {
+/// Puts the parts of a stream together.
+class RecordReader final : public StreamReader {
  public:
-  RecordingClock(FrameRecord& record, std::vector<RecordedSegment> segments)
-      : record_(record), planned_(std::move(segments)) {}
+  explicit RecordReader(FrameRecord& record) : record_(record), packets_(record.packets) {}
 
-  void start(std::uint32_t /*memory_lines*/) {}
-  void draw(std::uint32_t /*index*/) { next_segment(); }
-  void dropped() { ++dropped_; }
-  void drawn() {
-    record_.triangles.push_back({.dropped_before = dropped_, .jobs = 0, .steps_after = 0});
-    dropped_ = 0;
-    ++record_.segments.back().triangles;
+  [[nodiscard]] bool wants_accesses() const override { return true; }
+
+  void begin(std::span<const StreamSurface> surfaces, std::uint32_t /*memory_lines*/) override {
+    record_.surfaces.assign(surfaces.begin(), surfaces.end());
   }
-  void job(const JobWork& work) {
-    if (work.steps > kMostSteps) {
-      throw InputError(fmt::format("{}: {} steps of the walker without a tile job; a record holds at most {}",
-                                   record_.name, work.steps, kMostSteps));
+
+  void read(const StreamView& part, std::vector<std::uint64_t>* /*burst_cycles*/) override {
+    std::span<const StreamSegment> segments = part.segments;
+    if (part.continues_segment) {
+      StreamSegment& open = packets_.segments.back();
+      open.triangles += segments[0].triangles - (part.continues_triangle ? 1 : 0);
+      open.dropped_after = segments[0].dropped_after;
+      segments = segments.subspan(1);
     }
-    ++record_.triangles.back().jobs;
-    record_.jobs.emplace_back(work.steps, work.quads);
-    if (work.touched != 0) {
-      record_.accesses.emplace_back(work.tile_x, work.tile_y, work.touched, work.written);
+    std::span<const StreamTriangle> triangles = part.triangles;
+    if (part.continues_triangle) {
+      StreamTriangle& open = packets_.triangles.back();
+      open.jobs += triangles[0].jobs;
+      open.steps_after = triangles[0].steps_after;
+      triangles = triangles.subspan(1);
     }
+    append(packets_.segments, segments);
+    append(packets_.triangles, triangles);
+    append(packets_.jobs, part.jobs);
+    append(packets_.accesses, part.accesses);
   }
-  void walked(std::uint32_t steps) { record_.triangles.back().steps_after = steps; }
-  [[nodiscard]] static std::uint64_t quad_cycle(int /*quad*/) { return 0; }
-  void fast_clear(std::uint32_t /*tiles*/) { next_segment(); }
-  void flush(const std::vector<ZFlush>& /*lines*/) { close_segment(); }
+
+  void end(std::span<const ZFlush> /*dirty*/) override {}
 
  private:
-  void close_segment() {
-    if (!record_.segments.empty()) {
-      record_.segments.back().dropped_after = dropped_;
-    }
-    dropped_ = 0;
-  }
-  void next_segment() {
-    close_segment();
-    record_.segments.push_back(planned_[record_.segments.size()]);
+  template <class Item>
+  static void append(std::vector<Item>& list, std::span<const Item> more) {
+    list.insert(list.end(), more.begin(), more.end());
   }
 
   FrameRecord& record_;
-  std::vector<RecordedSegment> planned_;
-  std::uint32_t dropped_ = 0;
+  PacketStream& packets_;
 };
-
-/// The segments of a frame before anything is known of their triangles.
-std::vector<RecordedSegment> plan_segments(const Frame& frame, const Config& config,
-                                           const std::vector<Surface>& surfaces) {
-  using Kind = RecordedSegment::Kind;
-  std::vector<RecordedSegment> segments;
-  for (const Command& command : frame.commands) {
-    const Target& target = frame.targets[command.target];
-    const std::uint32_t number = target.depth_surface;
-    if (command.kind == CommandKind::kDraw) {
-      const DepthFormat format = number == kNoSurface ? DepthFormat::kNone : surfaces[number].format;
-      const bool touches = touches_depth(early_z_state(command, format, config));
-      segments.push_back({.kind = Kind::kDraw, .surface = number, .touches_depth = touches ? 1u : 0u});
-    } else if (command.has(Flag::kClearDepth) && number != kNoSurface) {
-      const PixelRect rect = drawable_rect(command.scissor, target);
-      if (clears_fast(rect, surfaces[number], config)) {
-        segments.push_back({.kind = Kind::kFastClear, .surface = number});
-      } else if (!rect.empty()) {
-        segments.push_back({.kind = Kind::kDrawnClear, .surface = number, .touches_depth = 1});
-      }
-    }
-  }
-  return segments;
-}
 
 }  // namespace
 
@@ -84,19 +54,8 @@ FrameRecord record_frame(const Frame& frame, const Config& config, PacketObserve
   FrameRecord record;
   record.name = frame.name;
   record.config = config;
-  const std::vector<Surface> surfaces = make_surfaces(frame, config.tile_walker.tile_size, false);
-  for (const ZSurface& place : place_surfaces(surfaces, config)) {
-    const Surface& surface = surfaces[record.surfaces.size()];
-    record.surfaces.push_back({.tiles_x = place.tiles_x,
-                               .tiles = place.tiles,
-                               .sample_bytes = static_cast<std::uint32_t>(sample_bytes(surface.format))});
-  }
-  Config banded = config;  // so that the traversal tells all bands apart
-  banded.z_cache.parts = recorded_bands(config.tile_walker.tile_size);
-  banded.z_cache.lines = banded.z_cache.parts;
-  banded.z_cache.ways = 1;
-  RecordingClock clock(record, plan_segments(frame, config, surfaces));
-  run_pipeline(frame, banded, false, observer, clock);
+  RecordReader reader(record);
+  run_in_order(frame, config, {.observer = observer}, &reader);
   return record;
 }
 

@@ -5,13 +5,25 @@
 #include <algorithm>
 #include <limits>
 
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/timing/draw_state.hpp"
-#include "halfspace/timing/record/replay-inl.hpp"
 #include "halfspace/timing/recurrence/core.hpp"
 
 namespace halfspace {
 namespace {
+
+/// Notes the end of every draw.
+struct DrawEnds : ReplayHooks {
+  const RecurrenceCore<OneMachine, NoStalls, NoProbe>& core;
+  std::vector<std::uint64_t>& ends;
+
+  void end_segment(const StreamSegment& segment, bool bursts) {
+    if (segment.kind == StreamSegment::Kind::kDraw) {
+      const std::uint64_t before = ends.empty() ? 0 : ends.back();
+      ends.push_back(bursts ? core.sink_next() - 1 : before);
+    }
+  }
+};
 
 /// On the machine whose z cache is that of `trace`.
 RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Config& config) {
@@ -19,13 +31,12 @@ RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Co
   RecurrenceCore<OneMachine, NoStalls, NoProbe> core(machine(config), make_credits(config), NoStalls{},
                                                      probe);
   RetimedFrame result;
-  HWY_NAMESPACE::replay(
-      record, trace, core,
-      [&](std::uint32_t tiles) { return static_cast<std::uint64_t>(fast_clear_cycles(tiles, config)); },
-      [&](const auto& c, bool bursts) {
-        const std::uint64_t before = result.draw_end.empty() ? 0 : result.draw_end.back();
-        result.draw_end.push_back(bursts ? c.sink_next() - 1 : before);
-      });
+  DrawEnds hooks{{}, core, result.draw_end};
+  bool bursts = false;
+  core.start(trace.memory_lines);
+  replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
+    return static_cast<std::uint64_t>(fast_clear_cycles(record.surfaces[surface].tiles, config));
+  });
   result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_cache.lines));
   return result;
 }
@@ -54,7 +65,9 @@ const Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
     }
   }
   ZTrace trace = trace_z_cache(record_, shape);
-  FrameWork work = record_work(record_, trace);
+  FrameWork work;
+  work.add(whole_stream(record_, trace), record_.surfaces);
+  work.flush = trace.flush;
   traced_.push_back({.shape = shape, .trace = std::move(trace), .work = std::move(work)});
   return traced_.back();
 }

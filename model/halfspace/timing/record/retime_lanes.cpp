@@ -12,8 +12,8 @@
 #include <new>
 #include <vector>
 
-#include "halfspace/timing/record/replay-inl.hpp"
 #include "halfspace/timing/record/retime.hpp"
+#include "halfspace/timing/recurrence/replay-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::HWY_NAMESPACE {
@@ -214,28 +214,43 @@ Machine<Lanes> lane_machine(std::span<const Config> configs) {
   return all;
 }
 
+using Core = RecurrenceCore<MachineLanes, NoStalls, NoProbe>;
+
+/// Notes the end of every draw on every machine.
+struct DrawEnds : ReplayHooks {
+  const Core& core;
+  std::span<RetimedFrame> results;
+
+  void end_segment(const StreamSegment& segment, bool bursts) {
+    if (segment.kind != StreamSegment::Kind::kDraw) {
+      return;
+    }
+    LaneNumbers next{};
+    core.sink_next().store(next.data());
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      std::vector<std::uint64_t>& ends = results[i].draw_end;
+      const std::uint64_t before = ends.empty() ? 0 : ends.back();
+      ends.push_back(bursts ? next[i] - 1 : before);
+    }
+  }
+};
+
 }  // namespace
 
 void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
                   RetimedFrame* results) {
   NoProbe probe;
-  RecurrenceCore<MachineLanes, NoStalls, NoProbe> core(lane_machine(configs), lane_credits(configs),
-                                                       NoStalls{}, probe);
-  LaneNumbers cycles{};
-  replay(
-      record, trace, core,
-      [&](std::uint32_t tiles) {
-        return gather(configs, [&](const Config& config) { return fast_clear_cycles(tiles, config); });
-      },
-      [&](const auto& c, bool bursts) {
-        c.sink_next().store(cycles.data());
-        for (std::size_t i = 0; i < configs.size(); ++i) {
-          std::vector<std::uint64_t>& ends = results[i].draw_end;
-          const std::uint64_t before = ends.empty() ? 0 : ends.back();
-          ends.push_back(bursts ? cycles[i] - 1 : before);
-        }
-      });
+  Core core(lane_machine(configs), lane_credits(configs), NoStalls{}, probe);
+  DrawEnds hooks{{}, core, {results, configs.size()}};
+  bool bursts = false;
+  core.start(trace.memory_lines);
+  replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
+    return gather(configs, [&](const Config& config) {
+      return fast_clear_cycles(record.surfaces[surface].tiles, config);
+    });
+  });
   // lanes share the shape of the z cache, so the number of its lines too
+  LaneNumbers cycles{};
   core.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_cache.lines)).store(cycles.data());
   for (std::size_t i = 0; i < configs.size(); ++i) {
     results[i].cycles = cycles[i];

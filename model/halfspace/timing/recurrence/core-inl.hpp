@@ -19,9 +19,8 @@
 #include <bit>
 #include <span>
 #include <utility>
-#include <vector>
 
-#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/machine/packet_stream.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
@@ -123,7 +122,7 @@ class RecurrenceCore {
   }
 
   /// Writes back the dirty lines of the z cache, which has `lines`, and gives the cycles of the frame.
-  T flush(const std::vector<ZFlush>& dirty, std::uint32_t lines) {
+  T flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
     T scan_next = idle();
     std::uint32_t seen = 0;
     for (const ZFlush& line : dirty) {

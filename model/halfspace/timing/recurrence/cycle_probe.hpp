@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/packet_stream.hpp"
+#include "halfspace/timing/cycle_observer.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/link_meter.hpp"
-#include "halfspace/timing/pipeline.hpp"
-#include "halfspace/timing/recurrence/cycle_observer.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 
 namespace halfspace {
@@ -41,6 +42,13 @@ class CycleProbe {
     }
     if constexpr (kObserved) {
       observer_->draw(index);
+    }
+  }
+
+  /// The next job is the tile whose top left pixel this is.
+  void tile(const StreamTile& tile) {
+    if constexpr (kObserved) {
+      observer_->tile(tile.x, tile.y);
     }
   }
 
@@ -96,7 +104,7 @@ class CycleProbe {
 
   void test(Cycle f, Cycle free, Cycle filled, Cycle slots, Cycle b, Cycle beats) {
     link(Link::kEarlyZPending, f, b + beats);
-    split<4>(Stage::kEarlyZ, free, {f + kLookupLatency, filled, slots, b}, beats);
+    split<4>(Stage::kZTest, free, {f + kLookupLatency, filled, slots, b}, beats);
     note(&PacketTimes::b, b);
   }
 
@@ -130,15 +138,7 @@ class CycleProbe {
     FrameCycles frame{.cycles = cycles, .stats = std::move(outside_), .draws = std::move(draws_)};
     CycleStats& sum = frame.stats;
     for (const DrawCycles& draw : frame.draws) {
-      for (std::size_t i = 0; i < kStages; ++i) {
-        sum.stage[i] += draw.stats.stage[i];
-      }
-      for (std::size_t i = 0; i < kLinks; ++i) {
-        sum.held[i] += draw.stats.held[i];
-        sum.packets[i] += draw.stats.packets[i];
-      }
-      sum.read_busy += draw.stats.read_busy;
-      sum.write_busy += draw.stats.write_busy;
+      sum += draw.stats;
     }
     for (std::size_t i = 0; i < kStages; ++i) {
       const Cycle last = sum.stage[i].total();

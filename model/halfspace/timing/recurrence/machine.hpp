@@ -5,39 +5,31 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/shape.hpp"
 #include "halfspace/timing/contract.hpp"
-#include "halfspace/timing/cycle_stats.hpp"
+#include "halfspace/units/z_cache.hpp"
 
 namespace halfspace {
 
 /// The later of two times.
 constexpr std::uint64_t later(std::uint64_t a, std::uint64_t b) { return std::max(a, b); }
 
+/// What a tile job costs.
+struct JobWork {
+  std::uint32_t steps = 0;          ///< of the walker, since the job before, its own included
+  int quads = 0;                    ///< 0: no sample is covered, and nothing leaves the quad generator
+  std::span<const ZMiss> misses{};  ///< the parts of its tile that the z cache did not have
+};
+
 /// Quads of the largest tile.
 inline constexpr std::size_t kMostQuads = 64;
 
-/// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
-inline constexpr std::size_t kMostCredits = 64;
-
 /// Logarithm of the bytes of the largest line, 16x16 samples of 4 bytes.
 inline constexpr std::size_t kMostLineBytesLog2 = 10;
-
-/// FIFOs whose credits the recurrence follows: the links, and the buffers of the memory side.
-enum class Fifo : std::uint8_t {
-  kSetupQueue,
-  kSetup,
-  kTileWalker,
-  kEdgeEvaluator,
-  kQuadGenerator,
-  kEarlyZPending,
-  kEarlyZ,
-  kFillBuffers,
-  kWriteBuffers,
-};
-inline constexpr std::size_t kFifos = 9;
 
 /// T is a time: a number of cycles, or one for each of several machines.
 template <class T>
@@ -51,14 +43,6 @@ struct Machine {
   T edge_latency;
   T memory_latency;
 };
-
-inline std::array<int, kFifos> capacities(const Config& config) {
-  return {config.setup.queue,          config.setup.fifo,
-          config.tile_walker.fifo,     config.edge_evaluator.fifo,
-          config.quad_generator.fifo,  config.early_z.pending,
-          config.early_z.fifo,         config.z_cache.misses_in_flight,
-          config.z_cache.write_buffers};
-}
 
 inline Machine<std::uint64_t> machine(const Config& config) {
   Machine<std::uint64_t> m{};

@@ -1,68 +1,97 @@
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 
-#include "halfspace/timing/pipeline.hpp"
+#include <vector>
+
+#include "halfspace/machine/in_order.hpp"
 #include "halfspace/timing/recurrence/core.hpp"
 #include "halfspace/timing/recurrence/cycle_probe.hpp"
 
 namespace halfspace {
 namespace {
 
-/// The clock of a traversal.
+/// Times the stream of a frame while the units run.
 template <class Stalls, bool kObserved>
-class RecurrenceClock {
+class RecurrenceReader final : public StreamReader {
  public:
-  RecurrenceClock(const Config& config, const Stalls& stalls, const TimedRun& run)
+  RecurrenceReader(const Config& config, const Stalls& stalls, CycleObserver* observer, PacketTimes* times)
       : config_(config),
-        probe_(capacities(config), run.times, run.observer),
+        probe_(capacities(config), times, observer),
         core_(machine(config), make_credits(config), stalls, probe_) {}
-  RecurrenceClock(const RecurrenceClock&) = delete;  // the core holds a reference to the probe
-  RecurrenceClock& operator=(const RecurrenceClock&) = delete;
-  ~RecurrenceClock() = default;
 
-  void start(std::uint32_t memory_lines) { core_.start(memory_lines); }
-  void draw(std::uint32_t index) { probe_.draw(index); }
-  void dropped() { core_.dropped(); }
-  void drawn() { core_.drawn(); }
-  void job(const JobWork& work) { core_.job(work); }
-  void walked(std::uint32_t steps) { core_.walked(steps); }
-  [[nodiscard]] std::uint64_t quad_cycle(int quad) const {
-    return core_.sink_start() + static_cast<std::uint64_t>(quad / config_.early_z.quads_per_cycle);
+  [[nodiscard]] bool wants_tiles() const override { return kObserved; }
+
+  void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) override {
+    for (const StreamSurface& surface : surfaces) {
+      clear_cycles_.push_back(static_cast<std::uint64_t>(fast_clear_cycles(surface.tiles, config_)));
+    }
+    core_.start(memory_lines);
   }
-  void fast_clear(std::uint32_t tiles) {
-    core_.fast_clear(static_cast<std::uint64_t>(fast_clear_cycles(tiles, config_)));
+
+  void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) override {
+    Hooks hooks{{}, *this, part, burst_cycles};
+    replay(part, core_, hooks, bursts_, [this](std::uint32_t surface) { return clear_cycles_[surface]; });
   }
-  void flush(const std::vector<ZFlush>& lines) {
+
+  void end(std::span<const ZFlush> dirty) override {
     probe_.drained();
-    cycles_ = core_.flush(lines, static_cast<std::uint32_t>(config_.z_cache.lines));
+    cycles_ = core_.flush(dirty, static_cast<std::uint32_t>(config_.z_cache.lines));
   }
 
   FrameCycles finish() { return probe_.finish(cycles_); }
 
  private:
+  struct Hooks : ReplayHooks {
+    RecurrenceReader& reader;
+    const StreamView& part;
+    std::vector<std::uint64_t>* burst_cycles;
+
+    void begin_segment(const StreamSegment& segment) {
+      reader.in_draw_ = segment.kind == StreamSegment::Kind::kDraw;
+      reader.probe_.draw(reader.in_draw_ ? reader.draws_++ : kNoDraw);
+    }
+    void job(std::size_t index) {
+      if constexpr (kObserved) {
+        if (reader.in_draw_) {
+          reader.probe_.tile(part.tiles[index]);
+        }
+      }
+    }
+    void burst() {
+      if (burst_cycles != nullptr) {
+        burst_cycles->push_back(reader.core_.sink_start());
+      }
+    }
+  };
+
   const Config& config_;
   CycleProbe<kObserved> probe_;
   RecurrenceCore<OneMachine, Stalls, CycleProbe<kObserved>> core_;
+  std::vector<std::uint64_t> clear_cycles_;  ///< by surface
+  std::uint32_t draws_ = 0;
+  bool in_draw_ = false;
+  bool bursts_ = false;
   std::uint64_t cycles_ = 0;
 };
 
 template <bool kObserved, class Stalls>
-FrameResult run_with(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
-                     const Stalls& stalls, TimedRun& run) {
-  RecurrenceClock<Stalls, kObserved> clock(config, stalls, run);
-  FrameResult result = run_pipeline(frame, config, keep_visible, observer, clock);
-  run.cycles = clock.finish();
+TimedResult run_with(const Frame& frame, const Config& config, const EngineOptions& options,
+                     const Stalls& stalls) {
+  TimedResult result;
+  RecurrenceReader<Stalls, kObserved> reader(config, stalls, options.observer,
+                                             options.packet_times ? &result.times : nullptr);
+  result.frame = run_in_order(frame, config, options.watch, &reader);
+  result.cycles = reader.finish();
   return result;
 }
 
 }  // namespace
 
-FrameResult run_recurrence(const Frame& frame, const Config& config, bool keep_visible,
-                           PacketObserver* observer, TimedRun& run) {
-  if (run.observer != nullptr) {
-    return run_with<true>(frame, config, keep_visible, observer, run.stalls, run);
+TimedResult run_recurrence(const Frame& frame, const Config& config, const EngineOptions& options) {
+  if (options.observer != nullptr) {
+    return run_with<true>(frame, config, options, options.stalls);
   }
-  return run.stalls.any() ? run_with<false>(frame, config, keep_visible, observer, run.stalls, run)
-                          : run_with<false>(frame, config, keep_visible, observer, NoStalls{}, run);
+  return options.stalls.any() ? run_with<false>(frame, config, options, options.stalls)
+                              : run_with<false>(frame, config, options, NoStalls{});
 }
 
 }  // namespace halfspace

@@ -1,6 +1,6 @@
 #include "halfspace/timing/rtl/cycle_meter.hpp"
 
-#include <utility>
+#include <algorithm>
 
 namespace halfspace::rtl {
 namespace {
@@ -18,8 +18,6 @@ bool of_current(Stage stage, std::size_t activity) {
   }
 }
 
-CycleStats* stats_of(DrawContext* draw) { return draw == nullptr ? nullptr : draw->stats(); }
-
 }  // namespace
 
 CycleMeter::CycleMeter(const Config& config, PacketReport& report) : report_(report) {
@@ -30,12 +28,12 @@ CycleMeter::CycleMeter(const Config& config, PacketReport& report) : report_(rep
   }
 }
 
-void CycleMeter::begins(Stage stage, DrawContext* draw) {
+void CycleMeter::begins(Stage stage, const DrawContext* draw) {
   flush(stage, draw);
   current_[static_cast<std::size_t>(stage)] = draw;
 }
 
-void CycleMeter::flush(Stage stage, DrawContext* next) {
+void CycleMeter::flush(Stage stage, const DrawContext* next) {
   const auto i = static_cast<std::size_t>(stage);
   for (std::size_t activity = 0; activity < kActivities; ++activity) {
     if (counts_[i][activity] != before_[i][activity]) {
@@ -44,20 +42,16 @@ void CycleMeter::flush(Stage stage, DrawContext* next) {
   }
 }
 
-void CycleMeter::add(std::size_t stage, std::size_t activity, DrawContext* draw) {
+void CycleMeter::add(std::size_t stage, std::size_t activity, const DrawContext* draw) {
   const std::uint64_t cycles = counts_[stage][activity] - before_[stage][activity];
   before_[stage][activity] = counts_[stage][activity];
-  const auto count = [&](CycleStats& stats) {
+  book_.count(draw, [&](CycleStats& stats) {
     StageCycles& to = stats.stage[stage];
     (activity == 0 ? to.busy : to.stall[activity - 1]) += cycles;
-  };
-  count(frame_);
-  if (CycleStats* const of_draw = stats_of(draw)) {
-    count(*of_draw);
-  }
+  });
 }
 
-void CycleMeter::take(Link link, DrawContext* draw, Cycle cycle) {
+void CycleMeter::take(Link link, const DrawContext* draw, Cycle cycle) {
   const auto i = static_cast<std::size_t>(link);
   if (held_[i].size() == capacity_[i]) {
     report_.differ(fmt::format("link {}: more than its {} credits are in use in cycle {}", kLinkName[i],
@@ -77,29 +71,25 @@ void CycleMeter::give_back(Link link, Cycle usable) {
   const Held held = held_[i].front();
   held_[i].pop_front();
   links_[i].add(held.since, usable);
-  for (CycleStats* const stats : {&frame_, stats_of(held.draw)}) {
-    if (stats != nullptr) {
-      stats->held[i] += usable - held.since;
-      ++stats->packets[i];
-    }
-  }
+  book_.count(held.draw, [&](CycleStats& stats) {
+    stats.held[i] += usable - held.since;
+    ++stats.packets[i];
+  });
 }
 
-void CycleMeter::transfer(std::uint64_t CycleStats::*channel, DrawContext* draw, std::uint64_t cycles) {
-  frame_.*channel += cycles;
-  if (CycleStats* const of_draw = stats_of(draw)) {
-    of_draw->*channel += cycles;
-  }
+void CycleMeter::transfer(std::uint64_t CycleStats::*channel, const DrawContext* draw, std::uint64_t cycles) {
+  book_.count(draw, [&](CycleStats& stats) { stats.*channel += cycles; });
 }
 
-CycleStats CycleMeter::finish(Cycle cycles) {
+FrameCycles CycleMeter::finish(Cycle cycles, const std::deque<DrawContext>& draws) {
   for (std::size_t i = 0; i < kStages; ++i) {
     flush(static_cast<Stage>(i), nullptr);
   }
   for (std::size_t i = 0; i < kLinks; ++i) {
-    frame_.occupancy[i] = links_[i].finish(cycles);
+    book_.frame().occupancy[i] = links_[i].finish(cycles);
   }
-  return std::move(frame_);
+  const auto count = std::ranges::count_if(draws, [](const DrawContext& draw) { return !draw.is_clear(); });
+  return book_.finish(cycles, static_cast<std::size_t>(count));
 }
 
 }  // namespace halfspace::rtl

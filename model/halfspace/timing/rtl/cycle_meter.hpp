@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <deque>
 
-#include "halfspace/timing/frame_source.hpp"
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/timing/cycle_book.hpp"
 #include "halfspace/timing/link_meter.hpp"
 #include "halfspace/timing/rtl/packet_check.hpp"
 
@@ -27,7 +28,7 @@ class CycleMeter {
   CycleMeter(const Config& config, PacketReport& report);
 
   /// In the coming cycle the stage begins with a packet of `draw`.
-  void begins(Stage stage, DrawContext* draw);
+  void begins(Stage stage, const DrawContext* draw);
   /// The activities of a cycle, as activity_o has them.
   void cycle(std::uint32_t activity) {
     for (std::size_t stage = 0; stage < kStages; ++stage) {
@@ -38,24 +39,27 @@ class CycleMeter {
   [[nodiscard]] const ActivityCounts& counts() const { return counts_; }
 
   /// A packet takes a credit of the link in this cycle. One more than there are is a difference.
-  void take(Link link, DrawContext* draw, Cycle cycle);
+  void take(Link link, const DrawContext* draw, Cycle cycle);
   /// The oldest packet that holds one leaves; the credit can be used again from this cycle on.
   void give_back(Link link, Cycle usable);
 
   /// Cycles in which memory moved data for the draw; null: for the flush.
-  void transfer(std::uint64_t CycleStats::*channel, DrawContext* draw, std::uint64_t cycles);
+  void transfer(std::uint64_t CycleStats::*channel, const DrawContext* draw, std::uint64_t cycles);
+
+  /// The last beat of a burst of the draw is in the sink.
+  void burst_left(const DrawContext& draw, Cycle cycle) { book_.burst_left(draw, cycle); }
 
   /// At the end of the frame, when all packets have left.
-  CycleStats finish(Cycle cycles);
+  FrameCycles finish(Cycle cycles, const std::deque<DrawContext>& draws);
 
  private:
   struct Held {
-    DrawContext* draw = nullptr;
+    const DrawContext* draw = nullptr;
     Cycle since = 0;
   };
 
-  void flush(Stage stage, DrawContext* next);
-  void add(std::size_t stage, std::size_t activity, DrawContext* draw);
+  void flush(Stage stage, const DrawContext* next);
+  void add(std::size_t stage, std::size_t activity, const DrawContext* draw);
 
   PacketReport& report_;
   std::array<std::size_t, kLinks> capacity_{};
@@ -63,8 +67,8 @@ class CycleMeter {
   std::array<std::deque<Held>, kLinks> held_;
   ActivityCounts counts_{};
   ActivityCounts before_{};  ///< before the stage's packet began
-  std::array<DrawContext*, kStages> current_{};
-  CycleStats frame_;
+  std::array<const DrawContext*, kStages> current_{};
+  CycleBook book_;
 };
 
 }  // namespace halfspace::rtl

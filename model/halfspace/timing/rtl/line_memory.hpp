@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/timing/frame_result.hpp"
-#include "halfspace/units/z_cache.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/units/z_line.hpp"
 
 namespace halfspace::rtl {
 

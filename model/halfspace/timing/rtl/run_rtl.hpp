@@ -3,28 +3,24 @@
 /// are the RTL's own.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <stdexcept>
-
-#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/config/config.hpp"
+#include "halfspace/timing/engine.hpp"
 #include "halfspace/timing/rtl/packet_check.hpp"
+#include "halfspace/timing/rtl/rtl_error.hpp"
 #include "halfspace/timing/rtl/verilated_pipeline.hpp"
 
 namespace halfspace {
 
-/// The RTL came to rest with work left, or one of its assertions failed.
-class RtlError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
+struct RtlResult {
+  TimedResult timed;
+  rtl::PacketReport report;  ///< where the RTL differs from the model
 };
 
 /// Runs `frame` on `pipeline`, which is that of `config`, both valid; call it once for a pipeline. Of the
 /// stall plan only source and sink can be injected: other points throw InputError, as do depth surfaces of
 /// more tiles than the pipeline has flags for. Counters of setup's verdicts and of the walker's decisions,
-/// which no wire carries, are those of the C++ units for the same packets. `report` says where the RTL
-/// differs from the model; `observer` may be null.
-FrameResult run_rtl(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
-                    TimedRun& run, rtl::VerilatedPipeline& pipeline, rtl::PacketReport& report);
+/// which no wire carries, are those of the C++ units for the same packets. Throws RtlError.
+RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions& options,
+                  rtl::VerilatedPipeline& pipeline);
 
 }  // namespace halfspace

@@ -7,22 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "halfspace/machine/shape.hpp"
+
 namespace halfspace::rtl {
 
-/// Bits of PipelineOutputs::events: what happens in the cycle, in the order of tb/raster_pipeline's probe.
-namespace event {
-inline constexpr std::uint32_t kDecide = 1u << 0;     ///< setup: a triangle is drawn or dropped
-inline constexpr std::uint32_t kAccept = 1u << 1;     ///< tile_walker takes a triangle
-inline constexpr std::uint32_t kEmit = 1u << 2;       ///< tile_walker makes a tile job
-inline constexpr std::uint32_t kJob = 1u << 3;        ///< edge_evaluator takes one
-inline constexpr std::uint32_t kCoverage = 1u << 4;   ///< quad_generator takes a coverage
-inline constexpr std::uint32_t kBeat = 1u << 5;       ///< early_z's lookup takes a beat
-inline constexpr std::uint32_t kFirstBeat = 1u << 6;  ///< the first of its burst
-inline constexpr std::uint32_t kLastBeat = 1u << 7;
-inline constexpr std::uint32_t kTestFirst = 1u << 8;  ///< early_z tests the first beat of a burst
-inline constexpr std::uint32_t kTestLast = 1u << 9;
-inline constexpr int kWritesShift = 10;  ///< lines that enter the write buffer, 3 bits
-}  // namespace event
+/// The bit of an event in PipelineOutputs::events.
+constexpr std::uint32_t bit(Event event) { return 1u << static_cast<int>(event); }
+/// Above them: lines that enter the write buffer in the cycle, 3 bits.
+inline constexpr int kWritesShift = static_cast<int>(kEvents);
 
 struct PipelineInputs {
   bool reset = false;

@@ -50,32 +50,32 @@ class CreditLinkBase {
   virtual void end_frame(Cycle end) = 0;
   /// One line for people: what it holds, and what its head waits for.
   [[nodiscard]] virtual std::string describe() const = 0;
-  [[nodiscard]] virtual const char* link_name() const = 0;
   void trace_on(TimedSignal* signal) { signal_ = signal; }
 
  protected:
   TimedSignal* signal_ = nullptr;  ///< credits in use; null where not traced
 };
 
-/// `capacity` credits; a packet can be seen `latency` cycles after the work on it began.
+/// A FIFO of the machine's shape. A packet can be seen `latency` cycles after the work on it began, and later
+/// where it is held back at `stalls`.
 template <class Token>
 class CreditLink : public sc_core::sc_prim_channel,
                    public CreditOut<Token>,
                    public CreditIn<Token>,
                    public CreditLinkBase {
  public:
-  struct Options {
-    int capacity = 1;
-    int latency = 1;
-    std::optional<Link> statistics;    ///< where its cycles are counted
-    std::optional<StallPoint> stalls;  ///< where its packets are held back
-  };
-
-  CreditLink(const char* name, RunState& run, const Options& options)
-      : sc_prim_channel(name), run_(run), options_(options) {}
+  CreditLink(RunState& run, Fifo fifo, int latency, std::optional<StallPoint> stalls = {})
+      : sc_prim_channel((std::string(kFifoName[static_cast<std::size_t>(fifo)]) + "_fifo").c_str()),
+        run_(run),
+        fifo_(static_cast<std::size_t>(fifo)),
+        capacity_(static_cast<std::size_t>(capacities(run.config)[fifo_])),
+        latency_(static_cast<Cycle>(latency)),
+        stalls_(stalls) {
+    run.fifos[fifo_] = this;
+  }
 
   Cycle credit(int count) override {
-    const std::size_t free = static_cast<std::size_t>(options_.capacity) - used_;
+    const std::size_t free = capacity_ - used_;
     const auto wanted = static_cast<std::size_t>(count);
     if (wanted <= free) {
       return 0;
@@ -89,7 +89,7 @@ class CreditLink : public sc_core::sc_prim_channel,
   void use_credit() override {
     const Cycle now = run_.clock.now();
     settle(now);
-    if (used_ == static_cast<std::size_t>(options_.capacity)) {
+    if (used_ == capacity_) {
       throw std::logic_error(std::string(name()) + ": no credit");
     }
     count_to(now);
@@ -101,9 +101,9 @@ class CreditLink : public sc_core::sc_prim_channel,
   }
 
   void put(Token token, Cycle begun) override {
-    const Cycle held_back = options_.stalls ? run_.stalls.cycles(*options_.stalls, packets_) : 0;
+    const Cycle held_back = stalls_ ? run_.stalls.cycles(*stalls_, packets_) : 0;
     ++packets_;
-    queue_.push_back({std::move(token), begun + static_cast<Cycle>(options_.latency) + held_back});
+    queue_.push_back({std::move(token), begun + latency_ + held_back});
     arrived_.notify();
   }
 
@@ -119,8 +119,8 @@ class CreditLink : public sc_core::sc_prim_channel,
   Token take(Cycle leave) override {
     Token token = std::move(queue_.front().token);
     queue_.pop_front();
-    if (options_.statistics) {
-      count_packet(token.work, leave + 1 - begun_.front());
+    if (fifo_ < kLinks) {
+      count_packet(token.draw, leave + 1 - begun_.front());
     }
     begun_.pop_front();
     returns_.push_back(leave + 1);
@@ -134,14 +134,14 @@ class CreditLink : public sc_core::sc_prim_channel,
   void begin_frame() override {
     counted_ = 0;
     packets_ = 0;
-    occupancy_.assign(static_cast<std::size_t>(options_.capacity) + 1, 0);
+    occupancy_.assign(capacity_ + 1, 0);
   }
 
   void end_frame(Cycle end) override {
     settle(end);
     count_to(end);
-    if (options_.statistics) {
-      run_.cycles.stats.occupancy[static_cast<std::size_t>(*options_.statistics)] = occupancy_;
+    if (fifo_ < kLinks) {
+      run_.book.frame().occupancy[fifo_] = occupancy_;
     }
   }
 
@@ -150,7 +150,7 @@ class CreditLink : public sc_core::sc_prim_channel,
     for (std::size_t i = 0; i < returns_.size() && returns_[i] <= run_.clock.now(); ++i) {
       --held;
     }
-    std::string text = std::to_string(held) + " of " + std::to_string(options_.capacity) + " in use, ";
+    std::string text = std::to_string(held) + " of " + std::to_string(capacity_) + " in use, ";
     if (!queue_.empty()) {
       return text + "the head may be taken from cycle " + std::to_string(queue_.front().visible) + " on";
     }
@@ -160,8 +160,6 @@ class CreditLink : public sc_core::sc_prim_channel,
     }
     return text + "empty";
   }
-
-  [[nodiscard]] const char* link_name() const override { return basename(); }
 
  private:
   struct Entry {
@@ -183,20 +181,18 @@ class CreditLink : public sc_core::sc_prim_channel,
     counted_ = cycle;
   }
 
-  void count_packet(DrawWork* work, Cycle held) {
-    const auto link = static_cast<std::size_t>(*options_.statistics);
-    const auto count = [&](CycleStats& stats) {
-      ++stats.packets[link];
-      stats.held[link] += held;
-    };
-    count(run_.cycles.stats);
-    if (CycleStats* const of_draw = work->stats()) {
-      count(*of_draw);
-    }
+  void count_packet(const DrawContext* draw, Cycle held) {
+    run_.book.count(draw, [&](CycleStats& stats) {
+      ++stats.packets[fifo_];
+      stats.held[fifo_] += held;
+    });
   }
 
   RunState& run_;
-  Options options_;
+  std::size_t fifo_;  ///< position in the table of FIFOs
+  std::size_t capacity_;
+  Cycle latency_;
+  std::optional<StallPoint> stalls_;
   std::deque<Entry> queue_;
   std::size_t used_ = 0;       ///< credits, as of the last packet that used one
   std::deque<Cycle> begun_;    ///< when each credit in use was taken, until its packet is

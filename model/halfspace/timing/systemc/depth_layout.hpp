@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "halfspace/timing/frame_result.hpp"
-#include "halfspace/units/z_cache.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/units/z_line.hpp"
 
 namespace halfspace::systemc {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "halfspace/timing/tally.hpp"
-#include "halfspace/units/edge_evaluator.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/tile_size.hpp"
 
 namespace halfspace::systemc {
 
@@ -19,7 +19,7 @@ void EdgeEvaluator::evaluate() {
     for (;;) {
       meter_.waits_for(stall::kNoInput);
       const Cycle visible = in->visible();
-      meter_.work_on(in->front().work);
+      meter_.work_on(in->front().draw);
       meter_.stalled(stall::kNoInput, visible);
       meter_.waits_for(stall::kEdgeNoCredit);
       const Cycle at = std::max({visible, next_, out->credit()});
@@ -31,11 +31,10 @@ void EdgeEvaluator::evaluate() {
       meter_.busy(at + 1);
       next_ = at + 1;
       const Coverage coverage = with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
-        return halfspace::edge_evaluator<size()>(token.job, run_.config.raster.sub_pixel_bits);
+        return passage::edge_evaluator<size()>(token.job, token.work, *token.draw);
       });
-      tally(token.work->counters, token.job, token.tile_work, any(coverage.mask));
       out->use_credit();
-      out->put({.work = token.work, .triangle = std::move(token.triangle), .coverage = coverage}, at);
+      out->put({.draw = token.draw, .triangle = std::move(token.triangle), .coverage = coverage}, at);
     }
   });
 }

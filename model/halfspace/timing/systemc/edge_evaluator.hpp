@@ -18,7 +18,6 @@ class EdgeEvaluator : public sc_core::sc_module {
   sc_core::sc_port<CreditOut<CoverageToken>> out;
 
   void begin_frame();
-  [[nodiscard]] StageMeter& meter() { return meter_; }
 
  private:
   void evaluate();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/tile_size.hpp"
 #include "halfspace/timing/contract.hpp"
-#include "halfspace/timing/tally.hpp"
-#include "halfspace/units/quad_generator.hpp"
 
 namespace halfspace::systemc {
 
@@ -20,7 +20,7 @@ void QuadGenerator::generate() {
     for (;;) {
       meter_.waits_for(stall::kNoInput);
       const Cycle visible = in->visible();
-      meter_.work_on(in->front().work);
+      meter_.work_on(in->front().draw);
       meter_.stalled(stall::kNoInput, visible);
       meter_.waits_for(stall::kQuadNoCredit);
       const Cycle at = std::max({visible, next_, out->credit()});
@@ -35,18 +35,13 @@ void QuadGenerator::generate() {
         run_.in_pipe.remove();
         continue;
       }
-      BurstToken burst{.work = token.work, .triangle = std::move(token.triangle), .burst = {}, .quads = 0};
-      with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
-        burst.burst = halfspace::quad_generator<size()>(token.coverage);
-        burst.quads = popcount(burst.burst.quads);
-        tally<size()>(token.work->counters.quad_generator, burst.burst,
-                      static_cast<std::uint64_t>(burst.quads),
-                      static_cast<std::uint64_t>(popcount(token.coverage.mask)));
+      const Burst burst = with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
+        return passage::quad_generator<size()>(token.coverage, *token.draw);
       });
       next_ = at + static_cast<Cycle>(beats(burst.quads, run_.config.quad_generator.quads_per_cycle));
       meter_.busy(next_);
       out->use_credit();
-      out->put(std::move(burst), at);
+      out->put({.draw = token.draw, .triangle = std::move(token.triangle), .burst = burst}, at);
     }
   });
 }

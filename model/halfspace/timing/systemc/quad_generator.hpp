@@ -18,7 +18,6 @@ class QuadGenerator : public sc_core::sc_module {
   sc_core::sc_port<CreditOut<BurstToken>> out;
 
   void begin_frame();
-  [[nodiscard]] StageMeter& meter() { return meter_; }
 
  private:
   void generate();

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace::systemc {
@@ -24,45 +25,21 @@ RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config
       commands("commands"),
       memory("memory"),
       run_(config),
-      setup_link_("setup_link", run_,
-                  {.capacity = config.setup.fifo,
-                   .latency = kSetupDivideLatency,
-                   .statistics = Link::kSetup,
-                   .stalls = StallPoint::kSetup}),
-      walker_link_("tile_walker_link", run_,
-                   {.capacity = config.tile_walker.fifo,
-                    .latency = kWalkerLatency,
-                    .statistics = Link::kTileWalker,
-                    .stalls = StallPoint::kTileWalker}),
-      edge_link_("edge_evaluator_link", run_,
-                 {.capacity = config.edge_evaluator.fifo,
-                  .latency = edge_latency(config),
-                  .statistics = Link::kEdgeEvaluator,
-                  .stalls = StallPoint::kEdgeEvaluator}),
-      quad_link_("quad_generator_link", run_,
-                 {.capacity = config.quad_generator.fifo,
-                  .latency = kQuadLatency,
-                  .statistics = Link::kQuadGenerator,
-                  .stalls = StallPoint::kQuadGenerator}),
-      early_z_link_("early_z_link", run_,
-                    {.capacity = config.early_z.fifo,
-                     .latency = kTestLatency,
-                     .statistics = Link::kEarlyZ,
-                     .stalls = StallPoint::kSink}),
+      setup_link_(run_, Fifo::kSetup, kSetupDivideLatency, StallPoint::kSetup),
+      walker_link_(run_, Fifo::kTileWalker, kWalkerLatency, StallPoint::kTileWalker),
+      edge_link_(run_, Fifo::kEdgeEvaluator, edge_latency(config), StallPoint::kEdgeEvaluator),
+      quad_link_(run_, Fifo::kQuadGenerator, kQuadLatency, StallPoint::kQuadGenerator),
+      early_z_link_(run_, Fifo::kEarlyZ, kTestLatency, StallPoint::kSink),
       source_("source", run_, *this),
       setup_("setup", run_),
       walker_("tile_walker", run_),
       edge_evaluator_("edge_evaluator", run_),
       quad_generator_("quad_generator", run_),
       early_z_("early_z", run_, base),
-      sink_("sink", run_),
-      meters_{&setup_.meter(),          &walker_.meter(),         &edge_evaluator_.meter(),
-              &quad_generator_.meter(), &early_z_.lookup_meter(), &early_z_.test_meter()},
-      links_{&setup_.queue(), &setup_link_,        &walker_link_, &edge_link_,
-             &quad_link_,     &early_z_.pending(), &early_z_link_} {
+      sink_("sink", run_) {
   commands.register_b_transport(this, &RasterPipeline::transport);
   source_.out(setup_);
-  source_.depth(early_z_);
+  source_.depth(early_z_.control);
   setup_.out(setup_link_);
   walker_.in(setup_link_);
   walker_.out(walker_link_);
@@ -70,19 +47,18 @@ RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config
   edge_evaluator_.out(edge_link_);
   quad_generator_.in(edge_link_);
   quad_generator_.out(quad_link_);
-  early_z_.in(quad_link_);
-  early_z_.out(early_z_link_);
+  early_z_.lookup.in(quad_link_);
+  early_z_.test.out(early_z_link_);
   sink_.in(early_z_link_);
-  early_z_.memory.bind(memory);
+  early_z_.cache.memory.socket.bind(memory);
 }
 
-void RasterPipeline::bind_frame(const Frame& frame, bool keep_visible, PacketObserver* observer,
-                                const StallPlan& stalls, PacketTimes* times) {
+void RasterPipeline::bind_frame(const Frame& frame, const EngineOptions& options) {
   run_.frame = &frame;
-  run_.stalls = stalls;
-  run_.observer = observer;
-  run_.times = times;
-  keep_visible_ = keep_visible;
+  run_.stalls = options.stalls;
+  run_.observer = options.watch.observer;
+  run_.notes_times = options.packet_times;
+  watch_ = options.watch;
   bound_ = true;
 }
 
@@ -92,12 +68,10 @@ void RasterPipeline::trace_to(sc_core::sc_trace_file* file) {
     sc_core::sc_trace(file, signals_.back()->value(), name, kTraceBits);
     return signals_.back().get();
   };
-  for (std::size_t i = 0; i < kLinks; ++i) {
-    links_[i]->trace_on(add("links." + std::string(kLinkName[i])));
+  for (std::size_t i = 0; i < kFifos; ++i) {
+    run_.fifos[i]->trace_on(add("links." + std::string(kFifoName[i])));
   }
-  early_z_.fill_buffers().trace_on(add("links.fill_buffers"));
-  early_z_.write_buffer().trace_on(add("links.write_buffer"));
-  for (StageMeter* const meter : meters_) {
+  for (StageMeter* const meter : run_.meters) {
     meter->trace_on(add("stages." + meter->name()));
   }
 }
@@ -105,19 +79,15 @@ void RasterPipeline::trace_to(sc_core::sc_trace_file* file) {
 void RasterPipeline::begin_frame() {
   run_.clock.restart();
   run_.result = {};
-  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_walker.tile_size, keep_visible_);
+  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_walker.tile_size, watch_.keep_visible);
   run_.places = place_surfaces(run_.result.surfaces, run_.config);
-  run_.works.clear();
-  run_.cycles = {};
-  if (run_.times != nullptr) {
-    *run_.times = {};
+  run_.draws.clear();
+  run_.book = {};
+  run_.times = {};
+  for (CreditLinkBase* const fifo : run_.fifos) {
+    fifo->begin_frame();
   }
-  for (CreditLinkBase* const link : links_) {
-    link->begin_frame();
-  }
-  early_z_.fill_buffers().begin_frame();
-  early_z_.write_buffer().begin_frame();
-  for (StageMeter* const meter : meters_) {
+  for (StageMeter* const meter : run_.meters) {
     meter->begin_frame();
   }
   setup_.begin_frame();
@@ -130,34 +100,30 @@ void RasterPipeline::begin_frame() {
 
 Cycle RasterPipeline::idle_from() const {
   Cycle from = sink_.next();
-  for (const StageMeter* const meter : meters_) {
+  for (const StageMeter* const meter : run_.meters) {
     from = std::max(from, meter->next());
   }
   return from;
 }
 
 void RasterPipeline::end_frame(Cycle cycles) {
-  run_.cycles.cycles = cycles;
-  for (CreditLinkBase* const link : links_) {
-    link->end_frame(cycles);
+  for (CreditLinkBase* const fifo : run_.fifos) {
+    fifo->end_frame(cycles);
   }
-  early_z_.fill_buffers().end_frame(cycles);
-  early_z_.write_buffer().end_frame(cycles);
-  for (StageMeter* const meter : meters_) {
+  for (StageMeter* const meter : run_.meters) {
     meter->end_frame(cycles);
   }
-  collect_draws(run_.works, run_.result, run_.cycles);
+  collect_draws(run_.draws, run_.result);
+  cycles_ = run_.book.finish(cycles, run_.result.draws.size());
   bound_ = false;
 }
 
-FrameResult RasterPipeline::take_result() {
+TimedResult RasterPipeline::take_result() {
   for (std::size_t i = 0; i < run_.result.surfaces.size(); ++i) {
     early_z_.read_surface(static_cast<std::uint32_t>(i), run_.result.surfaces[i].codes);
   }
-  return std::move(run_.result);
+  return {.frame = std::move(run_.result), .cycles = cycles_, .times = std::move(run_.times)};
 }
-
-FrameCycles RasterPipeline::take_cycles() { return std::move(run_.cycles); }
 
 void RasterPipeline::check() {
   if (run_.error) {
@@ -170,14 +136,13 @@ void RasterPipeline::check() {
 
 std::string RasterPipeline::describe() {
   std::string text = "stage source: " + source_.describe() + "\n";
-  for (const StageMeter* const meter : meters_) {
+  for (const StageMeter* const meter : run_.meters) {
     text += "stage " + meter->name() + ": " + meter->describe() + "\n";
   }
-  for (std::size_t i = 0; i < kLinks; ++i) {
-    text += "link " + std::string(kLinkName[i]) + ": " + links_[i]->describe() + "\n";
+  for (std::size_t i = 0; i < kFifos; ++i) {
+    text += "link " + std::string(kFifoName[i]) + ": " + run_.fifos[i]->describe() + "\n";
   }
-  text += "fill buffers: " + early_z_.fill_buffers().describe() + "\n";
-  return text + "write buffer: " + early_z_.write_buffer().describe() + "\n";
+  return text;
 }
 
 // The command port.
@@ -253,10 +218,10 @@ tlm::tlm_response_status RasterPipeline::read_register(std::uint64_t address, st
       value = source_.commands_done();
       return tlm::TLM_OK_RESPONSE;
     case registers::kCyclesLow:
-      value = static_cast<std::uint32_t>(run_.cycles.cycles);
+      value = static_cast<std::uint32_t>(cycles_.cycles);
       return tlm::TLM_OK_RESPONSE;
     case registers::kCyclesHigh:
-      value = static_cast<std::uint32_t>(run_.cycles.cycles >> 32);
+      value = static_cast<std::uint32_t>(cycles_.cycles >> 32);
       return tlm::TLM_OK_RESPONSE;
     default:
       return tlm::TLM_COMMAND_ERROR_RESPONSE;

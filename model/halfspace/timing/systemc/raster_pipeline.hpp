@@ -3,7 +3,6 @@
 
 #include <tlm_utils/simple_target_socket.h>
 
-#include <array>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 #include <tlm>
 #include <vector>
 
+#include "halfspace/timing/engine.hpp"
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/edge_evaluator.hpp"
 #include "halfspace/timing/systemc/quad_generator.hpp"
@@ -56,10 +56,9 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   tlm_utils::simple_target_socket<RasterPipeline> commands;
   tlm::tlm_initiator_socket<> memory;
 
-  /// The frame whose commands are executed next, from depth 1 on all surfaces. It, `observer` and `times`
-  /// must live until it has ended; the last two may be null.
-  void bind_frame(const Frame& frame, bool keep_visible = false, PacketObserver* observer = nullptr,
-                  const StallPlan& stalls = {}, PacketTimes* times = nullptr);
+  /// The frame whose commands are executed next, from depth 1 on all surfaces. It and the observer must live
+  /// until it has ended. Whoever observes cycles is not told: that is for the recurrence.
+  void bind_frame(const Frame& frame, const EngineOptions& options = {});
 
   /// Records the credits in use of every link, and the state of every stage: 1 busy, 2 and up its stall
   /// reasons in order. Before the simulation starts.
@@ -70,8 +69,7 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   void check();
 
   /// Of the frame that ended last. Reads the depth images from memory.
-  FrameResult take_result();
-  FrameCycles take_cycles();
+  TimedResult take_result();
 
  private:
   void begin_frame() override;
@@ -96,9 +94,8 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   QuadGenerator quad_generator_;
   EarlyZ early_z_;
   Sink sink_;
-  std::array<StageMeter*, kStages> meters_;
-  std::array<CreditLinkBase*, kLinks> links_;  ///< in order of Link
-  bool keep_visible_ = false;
+  Watch watch_;
+  FrameCycles cycles_;  ///< of the frame that ended last
   bool bound_ = false;
   std::vector<std::unique_ptr<TimedSignal>> signals_;
 };

@@ -1,24 +1,26 @@
 /// What the modules of one pipeline share: the draws at work, and where results are collected.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <exception>
 #include <systemc>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/cycle_stats.hpp"
-#include "halfspace/timing/frame_result.hpp"
-#include "halfspace/timing/frame_source.hpp"
-#include "halfspace/timing/pipeline.hpp"
+#include "halfspace/timing/cycle_book.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 #include "halfspace/timing/systemc/sim_clock.hpp"
 
 namespace halfspace::systemc {
 
-/// Every token points to its own: each unit is at another draw.
-using DrawWork = DrawContext;
+class CreditLinkBase;
+class StageMeter;
 
 /// Counts the packets between source and sink.
 class PacketsInPipe {
@@ -48,21 +50,30 @@ struct RunState {
   SimClock clock;
   PacketsInPipe in_pipe;
   std::exception_ptr error;  ///< what a process threw
+  // Each puts itself here when it is made.
+  std::array<CreditLinkBase*, kFifos> fifos{};
+  std::array<StageMeter*, kStages> meters{};
 
   // Of the frame.
   const Frame* frame = nullptr;
   StallPlan stalls;
   PacketObserver* observer = nullptr;
-  PacketTimes* times = nullptr;
+  bool notes_times = false;
+  PacketTimes times;  ///< where they are noted
   FrameResult result;
-  std::vector<ZSurface> places;  ///< by surface
-  std::deque<DrawWork> works;    ///< tokens point into it
-  FrameCycles cycles;
+  std::vector<ZSurface> places;   ///< by surface
+  std::deque<DrawContext> draws;  ///< tokens point into it
+  CycleBook book;
 
-  void record(std::vector<std::uint64_t> PacketTimes::*stream, Cycle cycle) const {
-    if (times != nullptr) {
-      (times->*stream).push_back(cycle);
+  void record(std::vector<std::uint64_t> PacketTimes::*stream, Cycle cycle) {
+    if (notes_times) {
+      (times.*stream).push_back(cycle);
     }
+  }
+
+  /// The depth surface of a draw; null where its target has none.
+  [[nodiscard]] Surface* surface(const DrawContext& draw) {
+    return draw.surface == kNoSurface ? nullptr : &result.surfaces[draw.surface];
   }
 
   /// The body of a process. The kernel would turn an exception into a report of its own; this keeps it for
@@ -81,18 +92,5 @@ struct RunState {
 
 /// Of processes that call observers, which may write files.
 inline constexpr std::size_t kStackBytes = 512 * 1024;
-
-/// Calls visit(std::integral_constant<int, tile size>) with the size of the configuration.
-template <class Visit>
-auto with_tile_size(int tile_size, Visit&& visit) {
-  switch (tile_size) {
-    case 4:
-      return visit(std::integral_constant<int, 4>{});
-    case 16:
-      return visit(std::integral_constant<int, 16>{});
-    default:
-      return visit(std::integral_constant<int, 8>{});
-  }
-}
 
 }  // namespace halfspace::systemc

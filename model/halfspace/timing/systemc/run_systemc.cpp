@@ -3,7 +3,11 @@
 #include <sysc/tracing/sc_tracing_ids.h>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <optional>
+#include <string>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/systemc/raster_pipeline.hpp"
@@ -56,13 +60,22 @@ struct Platform {
   SimpleMemory memory;
 };
 
+/// A path to which the kernel adds .vcd. The kernel ends the program where it cannot write the file, so that
+/// is found out first.
+std::filesystem::path writable_vcd(std::filesystem::path path) {
+  path.replace_extension(path.extension() == ".vcd" ? "" : path.extension());
+  const std::string file = path.string() + ".vcd";
+  if (!std::ofstream(file)) {
+    throw InputError(file + ": cannot be written: " + std::strerror(errno));
+  }
+  return path;
+}
+
 class TraceFile {
  public:
-  /// The kernel adds the extension, and would tell of every file.
-  explicit TraceFile(std::filesystem::path path)
-      : file_(sc_core::sc_create_vcd_trace_file(
-            (path.extension() == ".vcd" ? path.replace_extension() : path).c_str())) {
-    using sc_core::sc_report_handler;
+  explicit TraceFile(const std::filesystem::path& path)
+      : file_(sc_core::sc_create_vcd_trace_file(writable_vcd(path).c_str())) {
+    using sc_core::sc_report_handler;  // the kernel would tell of every file
     const sc_core::sc_actions before = sc_report_handler::set_actions(
         sc_core::SC_ID_TRACING_TIMESCALE_UNIT_, sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
     file_->set_time_unit(1, sc_core::SC_NS);
@@ -80,19 +93,18 @@ class TraceFile {
 
 }  // namespace
 
-FrameResult run_systemc(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
-                        TimedRun& run, const SystemcOptions& options) {
+TimedResult run_systemc(const Frame& frame, const Config& config, const EngineOptions& options,
+                        const SystemcOptions& systemc) {
   const SimulationContext context;
   std::optional<TraceFile> trace;
   Platform platform(frame, config);
-  platform.pipeline.bind_frame(frame, keep_visible, observer, run.stalls, run.times);
-  if (!options.vcd.empty()) {
-    trace.emplace(options.vcd);
+  platform.pipeline.bind_frame(frame, options);
+  if (!systemc.vcd.empty()) {
+    trace.emplace(systemc.vcd);
     platform.pipeline.trace_to(trace->get());
   }
   sc_core::sc_start();
   platform.pipeline.check();
-  run.cycles = platform.pipeline.take_cycles();
   return platform.pipeline.take_result();
 }
 

@@ -5,7 +5,8 @@
 
 #include <filesystem>
 
-#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/config/config.hpp"
+#include "halfspace/timing/engine.hpp"
 
 namespace halfspace {
 
@@ -14,9 +15,9 @@ struct SystemcOptions {
 };
 
 /// Runs `frame` on the machine of `config`. Image, counters, events, cycles and times are those of
-/// run_recurrence. `observer` may be null. Throws systemc::DeadlockError where the machine comes to rest with
-/// work left, which a valid configuration never does. Not for several threads at a time.
-FrameResult run_systemc(const Frame& frame, const Config& config, bool keep_visible, PacketObserver* observer,
-                        TimedRun& run, const SystemcOptions& options = {});
+/// run_recurrence. Throws systemc::DeadlockError where the machine comes to rest with work left, which a
+/// valid configuration never does. Not for several threads at a time.
+TimedResult run_systemc(const Frame& frame, const Config& config, const EngineOptions& options = {},
+                        const SystemcOptions& systemc = {});
 
 }  // namespace halfspace

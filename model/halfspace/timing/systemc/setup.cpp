@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "halfspace/machine/passage/setup.hpp"
 #include "halfspace/timing/contract.hpp"
-#include "halfspace/timing/tally.hpp"
 
 namespace halfspace::systemc {
 
@@ -12,11 +12,7 @@ Setup::Setup(const sc_core::sc_module_name& name, RunState& run)
       out("out"),
       run_(run),
       meter_(Stage::kSetup, run),
-      queue_("setup_queue", run,
-             {.capacity = run.config.setup.queue,
-              .latency = kSetupCullLatency,
-              .statistics = Link::kSetupQueue,
-              .stalls = {}}) {
+      queue_(run, Fifo::kSetupQueue, kSetupCullLatency) {
   SC_THREAD(decide);
 }
 
@@ -42,12 +38,11 @@ void Setup::decide() {
     for (;;) {
       meter_.waits_for(stall::kNoInput);
       const Cycle visible = queue_.visible();
-      DrawWork* const work = queue_.front().work;
-      meter_.work_on(work);
+      DrawContext* const draw = queue_.front().draw;
+      meter_.work_on(draw);
       meter_.stalled(stall::kNoInput, visible);
 
-      const SetupVerdict verdict = setup(queue_.front().triangle, work->setup, equations);
-      const bool drawn = verdict == SetupVerdict::kDrawn;
+      const bool drawn = passage::setup(queue_.front().triangle, *draw, equations);
       Cycle at = std::max(visible, next_decision_);
       if (drawn) {
         meter_.stalled(stall::kSetupDivider, divider_free_);
@@ -62,14 +57,13 @@ void Setup::decide() {
       run_.record(&PacketTimes::decide, at);
       meter_.busy(at + 1);
       next_decision_ = at + 1;
-      tally(work->counters.setup, verdict);
       if (!drawn) {
         run_.in_pipe.remove();
         continue;
       }
       divider_free_ = at + interval;
       out->use_credit();
-      out->put({.work = work, .triangle = std::make_shared<const SetupTriangle>(equations)}, at);
+      out->put({.draw = draw, .triangle = std::make_shared<const SetupTriangle>(equations)}, at);
     }
   });
 }

@@ -26,8 +26,6 @@ class Setup : public sc_core::sc_module, public TriangleInput {
 
   Cycle take(const QueuedTriangle& triangle, Cycle arrive) override;
   void begin_frame();
-  [[nodiscard]] StageMeter& meter() { return meter_; }
-  [[nodiscard]] CreditLinkBase& queue() { return queue_; }
 
  private:
   void decide();

@@ -23,9 +23,7 @@ class Sink : public sc_core::sc_module {
  private:
   void take();
   template <int TileSize>
-  void count_pixels(const TestedToken& token);
-  template <int TileSize>
-  void show_quads(const TestedToken& token, Cycle first_beat);
+  void show(const TestedToken& token, Cycle first_beat);
 
   RunState& run_;
   Cycle next_ = 0;

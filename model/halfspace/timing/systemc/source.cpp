@@ -63,7 +63,7 @@ void Source::begin_frame() {
   triangles_ = 0;
   next_arrival_ = 0;
   control_.begin_frame();
-  frame_.emplace(*run_.frame, run_.config, run_.observer, run_.result, run_.works);
+  frame_.emplace(*run_.frame, run_.config, run_.observer, run_.result, run_.draws);
 }
 
 /// Waits for the first cycle in which everything has left the pipe, and returns it.
@@ -86,27 +86,25 @@ void Source::end_frame() {
 void Source::execute(std::uint32_t index) {
   frame_->begin(index);
   while (const std::optional<SourceItem> item = frame_->next()) {
-    if (item->draw != nullptr) {
-      give(*item->draw, item->triangle);
-    } else {
+    if (item->draw == nullptr) {
       fast_clear(item->surface, item->code);
+    }
+    for (const ScreenTriangle& triangle : item->triangles) {
+      give(*item->draw, triangle);
     }
   }
 }
 
-void Source::give(DrawWork& work, const ScreenTriangle& triangle) {
+void Source::give(DrawContext& draw, const ScreenTriangle& triangle) {
   run_.in_pipe.add();
   const Cycle arrive = next_arrival_ + run_.stalls.cycles(StallPoint::kSource, triangles_++);
-  next_arrival_ = out->take({.work = &work, .triangle = triangle}, arrive) + 1;
+  next_arrival_ = out->take({.draw = &draw, .triangle = triangle}, arrive) + 1;
 }
 
 void Source::fast_clear(std::uint32_t surface, std::uint32_t code) {
   const Cycle begin = drain();
   depth->clear(surface, code);
-  TiledImage<std::uint32_t>& visible = run_.result.surfaces[surface].visible;
-  if (!visible.empty()) {
-    visible.fill({.x_last = visible.width() - 1, .y_last = visible.height() - 1}, kNothingVisible);
-  }
+  clear_surface(run_.result.surfaces[surface], code);
   const std::uint32_t tiles = run_.places[surface].tiles;
   next_arrival_ = begin + static_cast<Cycle>(fast_clear_cycles(tiles, run_.config));
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <systemc>
 
-#include "halfspace/timing/frame_source.hpp"
+#include "halfspace/machine/frame_source.hpp"
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/setup.hpp"
 
@@ -48,7 +48,7 @@ class Source : public sc_core::sc_module {
   void begin_frame();
   void execute(std::uint32_t index);
   void fast_clear(std::uint32_t surface, std::uint32_t code);
-  void give(DrawWork& work, const ScreenTriangle& triangle);
+  void give(DrawContext& draw, const ScreenTriangle& triangle);
   Cycle drain();
   void end_frame();
 

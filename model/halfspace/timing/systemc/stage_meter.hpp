@@ -12,16 +12,21 @@ namespace halfspace::systemc {
 /// past already is not counted again, so reasons are told in order of their priority.
 class StageMeter {
  public:
-  StageMeter(Stage stage, RunState& run) : stage_(stage), run_(run) {}
+  StageMeter(Stage stage, RunState& run) : stage_(stage), run_(run) {
+    run.meters[static_cast<std::size_t>(stage)] = this;
+  }
+  StageMeter(const StageMeter&) = delete;
+  StageMeter& operator=(const StageMeter&) = delete;
+  ~StageMeter() = default;
 
   void begin_frame() {
     next_ = 0;
-    work_ = nullptr;
+    draw_ = nullptr;
     waits_for(stall::kNoInput);
   }
 
   /// The cycles that are told from here on are the draw's.
-  void work_on(DrawWork* work) { work_ = work; }
+  void work_on(const DrawContext* draw) { draw_ = draw; }
 
   /// The cycles up to but without `end`.
   void stalled(std::size_t reason, Cycle end) {
@@ -36,7 +41,7 @@ class StageMeter {
 
   /// The rest of the frame.
   void end_frame(Cycle end) {
-    work_ = nullptr;
+    draw_ = nullptr;
     stalled(stall::kNoInput, end);
   }
 
@@ -71,10 +76,7 @@ class StageMeter {
       return;
     }
     const auto stage = static_cast<std::size_t>(stage_);
-    member(run_.cycles.stats.stage[stage]) += end - next_;
-    if (CycleStats* const of_draw = work_ != nullptr ? work_->stats() : nullptr) {
-      member(of_draw->stage[stage]) += end - next_;
-    }
+    run_.book.count(draw_, [&](CycleStats& stats) { member(stats.stage[stage]) += end - next_; });
     if (signal_ != nullptr) {
       signal_->set(next_, state);
     }
@@ -84,7 +86,7 @@ class StageMeter {
   Stage stage_;
   RunState& run_;
   Cycle next_ = 0;
-  DrawWork* work_ = nullptr;
+  const DrawContext* draw_ = nullptr;
   std::size_t waits_for_ = 0;
   TimedSignal* signal_ = nullptr;  ///< null where not traced
 };

@@ -1,59 +1,26 @@
-/// What the links carry. The tile is the smallest unit of transport: a burst is one token, whatever its
-/// quads.
+/// What the links carry beside the packets of machine/tokens.hpp. The tile is the smallest unit of transport:
+/// a burst is one token, whatever its quads.
 #pragma once
 
 #include <array>
-#include <memory>
+#include <cstdint>
 #include <vector>
 
-#include "halfspace/timing/systemc/run_state.hpp"
-#include "halfspace/units/packets.hpp"
-#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/machine/tokens.hpp"
+#include "halfspace/timing/systemc/sim_clock.hpp"
 #include "halfspace/units/z_cache.hpp"
 
 namespace halfspace::systemc {
 
-/// Kept as long as a token needs it; hardware has a table of them, of which TileJob::slot is the index.
-using TrianglePointer = std::shared_ptr<const SetupTriangle>;
-
 /// In the queue of setup.
 struct QueuedTriangle {
-  DrawWork* work = nullptr;
+  DrawContext* draw = nullptr;
   ScreenTriangle triangle;
-};
-
-/// setup -> tile_walker.
-struct TriangleToken {
-  DrawWork* work = nullptr;
-  TrianglePointer triangle;
-};
-
-/// tile_walker -> edge_evaluator.
-struct JobToken {
-  DrawWork* work = nullptr;
-  TrianglePointer triangle;
-  TileJob job;
-  TileWork tile_work = TileWork::kEvaluate;
-};
-
-/// edge_evaluator -> quad_generator.
-struct CoverageToken {
-  DrawWork* work = nullptr;
-  TrianglePointer triangle;
-  Coverage coverage;
-};
-
-/// quad_generator -> early_z.
-struct BurstToken {
-  DrawWork* work = nullptr;
-  TrianglePointer triangle;
-  QuadBurst burst;
-  int quads = 0;
 };
 
 /// In the pending store of early_z: a burst and what the lookup found for the parts of its tile.
 struct PendingToken {
-  DrawWork* work = nullptr;
+  DrawContext* draw = nullptr;
   BurstToken burst;
   std::uint8_t touched = 0;  ///< bit i: part i has to do with stored depth
   std::uint8_t missed = 0;   ///< bit i: it was not in the cache
@@ -64,24 +31,22 @@ struct PendingToken {
 
 /// In a fill buffer.
 struct FillToken {
-  DrawWork* work = nullptr;
+  DrawContext* draw = nullptr;
   std::vector<std::uint32_t> codes;
 };
 
 /// In a slot of the write buffer.
 struct WriteToken {
-  DrawWork* work = nullptr;  ///< null in the flush
-  std::uint32_t line = 0;    ///< of memory
-  std::uint64_t number = 0;  ///< counts the writes of the frame, from 1
+  DrawContext* draw = nullptr;  ///< null in the flush
+  std::uint32_t line = 0;       ///< of memory
+  std::uint64_t number = 0;     ///< counts the writes of the frame, from 1
   std::vector<std::uint32_t> codes;
 };
 
 /// early_z -> sink.
 struct TestedToken {
-  DrawWork* work = nullptr;
-  TrianglePointer triangle;
-  QuadBurst burst;
-  int quads = 0;
+  DrawContext* draw = nullptr;
+  BurstToken burst;
   TileMask passed;
   std::vector<std::uint32_t> codes;  ///< of the tile, where quads are recorded
 };

@@ -1,15 +1,12 @@
-/// What a run of a frame gives, in every fidelity, and who may watch it.
+/// What the machine makes of a frame, in every fidelity.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
-#include "halfspace/units/packets.hpp"
-#include "halfspace/units/tile_walker.hpp"
 #include "halfspace/units/tiled_image.hpp"
 
 namespace halfspace {
@@ -44,43 +41,6 @@ struct FrameResult {
   std::uint64_t flushed_lines = 0;  ///< of the z cache, written back at the end
   std::uint64_t flushed_bytes = 0;
   std::uint64_t draws_not_filled = 0;  ///< skipped: their polygons are drawn as lines or points
-};
-
-/// A quad as it leaves early_z.
-struct QuadEvent {
-  std::uint32_t draw = 0;      ///< counts the draws of the frame, not its clears
-  std::uint32_t triangle = 0;  ///< in the draw
-  std::uint32_t surface = kNoSurface;
-  std::uint32_t x = 0;  ///< top left pixel
-  std::uint32_t y = 0;
-  std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
-  std::uint8_t passed = 0;  ///< the same bits after early-Z
-  std::array<std::uint32_t, 4> depth{};  ///< codes; 0 for helpers and where there is no depth surface
-  std::uint64_t cycle = 0;               ///< leaves early_z; 0 when untimed
-};
-
-/// A decision of the walker.
-struct DecisionEvent {
-  std::uint32_t draw = 0;
-  std::uint32_t triangle = 0;
-  std::uint32_t surface = kNoSurface;
-  std::uint32_t x = 0;  ///< top left pixel
-  std::uint32_t y = 0;
-  std::uint32_t size = 0;
-  TileVerdict verdict = TileVerdict::kReject;
-};
-
-/// Sees packets as they pass, in order. Override what is of interest and say so.
-class PacketObserver {
- public:
-  virtual ~PacketObserver() = default;
-  [[nodiscard]] virtual bool wants_quads() const { return false; }
-  [[nodiscard]] virtual bool wants_decisions() const { return false; }
-  [[nodiscard]] virtual bool wants_tile_jobs() const { return false; }
-  virtual void quad(const QuadEvent&) {}
-  virtual void decision(const DecisionEvent&) {}
-  virtual void tile_job(const TileJob&) {}
-  virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };
 
 }  // namespace halfspace

@@ -1,4 +1,4 @@
-#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
 namespace {
@@ -45,7 +45,7 @@ void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, con
 }
 
 template <int TileSize>
-TileMask early_z(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
+TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
                  std::uint32_t* stored, TileCodes<TileSize>& codes) {
   if (!state.test) {
     return burst.coverage.mask;
@@ -66,7 +66,7 @@ TileMask early_z(const SetupTriangle& triangle, const QuadBurst& burst, const Ea
 #define HALFSPACE_INSTANTIATE(size)                                                                \
   template void interpolate_tile<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, \
                                        TileCodes<size>&);                                          \
-  template TileMask early_z<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&,      \
+  template TileMask z_test<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&,      \
                                   std::uint32_t*, TileCodes<size>&);
 HALFSPACE_INSTANTIATE(4)
 HALFSPACE_INSTANTIATE(8)

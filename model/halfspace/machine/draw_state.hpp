@@ -1,14 +1,16 @@
 /// What a command of a frame means for the units.
 #pragma once
 
+#include <array>
+
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/timing/frame_result.hpp"
-#include "halfspace/units/early_z.hpp"
+#include "halfspace/units/z_test.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
-#include "halfspace/units/z_cache.hpp"
+#include "halfspace/units/z_line.hpp"
 
 namespace halfspace {
 
@@ -16,7 +18,6 @@ namespace halfspace {
 PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 
 WalkerConfig walker_config(const Config& config);
-ZCacheShape z_cache_shape(const Config& config);
 
 /// `format` is that of the target's depth surface, none where it has none.
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
@@ -26,15 +27,6 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
 /// it has one.
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
                                   std::uint32_t clear_code);
-
-/// Depth surfaces as they are before the first command, with no clear: depth 1.
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible);
-
-/// Where the tiles of each surface lie in memory; by surface number.
-std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config);
-
-/// Lines of memory that all surfaces take.
-std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape);
 
 /// True where the clear is done by the z cache: it covers a whole surface, and fast clear is on.
 bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config);

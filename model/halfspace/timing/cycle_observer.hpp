@@ -21,6 +21,8 @@ class CycleObserver {
 
   /// What follows belongs to this draw, or with kNoDraw to a clear that is drawn.
   virtual void draw(std::uint32_t index) = 0;
+  /// The tile job that comes next is the tile whose top left pixel this is.
+  virtual void tile(std::uint32_t /*x*/, std::uint32_t /*y*/) {}
   /// What follows belongs to the end of the frame.
   virtual void drained() = 0;
   /// The next packet of `link` holds its credit.

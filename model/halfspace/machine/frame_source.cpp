@@ -1,4 +1,4 @@
-#include "halfspace/timing/frame_source.hpp"
+#include "halfspace/machine/frame_source.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,8 @@
 namespace halfspace {
 namespace {
 
-/// Triangles that the front end makes in one go.
+/// Triangles that the front end makes in one go: enough to amortise, few enough to stay in the processor's
+/// cache.
 constexpr std::uint32_t kFrontEndBatch = 256;
 
 }  // namespace
@@ -27,9 +28,10 @@ FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserve
   }
 }
 
-void FrameSource::begin(std::uint32_t command) {
+DrawContext* FrameSource::begin(std::uint32_t command) {
+  draw_ = nullptr;
   batch_.clear();
-  next_in_batch_ = 0;
+  batch_given_ = true;
   front_end_.reset();
   fast_clear_.reset();
   const Command& begun = frame_.commands[command];
@@ -38,17 +40,18 @@ void FrameSource::begin(std::uint32_t command) {
   } else {
     begin_draw(begun, command);
   }
+  return draw_;
 }
 
 std::optional<SourceItem> FrameSource::next() {
   if (fast_clear_) {
     return std::exchange(fast_clear_, std::nullopt);
   }
-  while (next_in_batch_ == batch_.size() && front_end_ && next_triangle_ < triangle_count_) {
+  while (batch_given_ && front_end_ && next_triangle_ < triangle_count_) {
     fill_batch();
   }
-  if (next_in_batch_ < batch_.size()) {
-    return SourceItem{.draw = draw_, .triangle = batch_[next_in_batch_++]};
+  if (!std::exchange(batch_given_, true)) {
+    return SourceItem{.draw = draw_, .triangles = batch_};
   }
   if (std::exchange(tell_done_, false)) {
     observer_->draw_done(draws_begun_, draws_in_frame_);
@@ -58,10 +61,10 @@ std::optional<SourceItem> FrameSource::next() {
 
 void FrameSource::fill_batch() {
   batch_.clear();
-  next_in_batch_ = 0;
   for (std::uint32_t i = 0; i < kFrontEndBatch && next_triangle_ < triangle_count_; ++i) {
     front_end_->process(next_triangle_++, batch_, draw_->counters.front_end);
   }
+  batch_given_ = batch_.empty();
 }
 
 void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
@@ -79,6 +82,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.keeps_visible = has_depth && !result_.surfaces[number].visible.empty() &&
                        (draw.early_z.write || !depth_written_[number]);
   if (observer_ != nullptr) {
+    draw.observer = observer_;
     draw.record_quads = observer_->wants_quads();
     draw.record_decisions = observer_->wants_decisions();
     draw.record_jobs = observer_->wants_tile_jobs();
@@ -119,11 +123,19 @@ void FrameSource::begin_clear(const Command& command) {
   draw.keeps_visible = !surface.visible.empty();
   draw_ = &draw;
   batch_.assign(clear.triangle.begin(), clear.triangle.end());
+  batch_given_ = false;
 }
 
-void collect_draws(std::deque<DrawContext>& draws, FrameResult& result, FrameCycles& cycles) {
-  std::uint64_t end = 0;
-  for (DrawContext& draw : draws) {
+void clear_surface(Surface& surface, std::uint32_t code) {
+  const PixelRect all{.x_last = surface.codes.width() - 1, .y_last = surface.codes.height() - 1};
+  surface.codes.fill(all, code);
+  if (!surface.visible.empty()) {
+    surface.visible.fill(all, kNothingVisible);
+  }
+}
+
+void collect_draws(const std::deque<DrawContext>& draws, FrameResult& result) {
+  for (const DrawContext& draw : draws) {
     if (draw.is_clear()) {
       result.drawn_clears += draw.counters;
       continue;
@@ -133,9 +145,6 @@ void collect_draws(std::deque<DrawContext>& draws, FrameResult& result, FrameCyc
     if (draw.surface != kNoSurface) {
       result.surfaces[draw.surface].counters += draw.counters;
     }
-    end = draw.has_burst ? draw.cycles.end : end;
-    draw.cycles.end = end;
-    cycles.draws.push_back(std::move(draw.cycles));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "halfspace/timing/draw_state.hpp"
+#include "halfspace/machine/draw_state.hpp"
 
 #include <algorithm>
 
@@ -30,10 +30,6 @@ WalkerConfig walker_config(const Config& config) {
           .block_level = config.tile_walker.block_level,
           .trivial_reject = config.tile_walker.trivial_reject,
           .trivial_accept = config.tile_walker.trivial_accept};
-}
-
-ZCacheShape z_cache_shape(const Config& config) {
-  return {.lines = config.z_cache.lines, .ways = config.z_cache.ways, .parts = config.z_cache.parts};
 }
 
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
@@ -82,54 +78,6 @@ DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& ea
   return packet;
 }
 
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible) {
-  std::vector<Surface> surfaces;
-  for (const Target& target : frame.targets) {
-    if (target.depth_surface == kNoSurface) {
-      continue;
-    }
-    if (target.depth_surface >= surfaces.size()) {
-      surfaces.resize(target.depth_surface + 1);
-    }
-    Surface& surface = surfaces[target.depth_surface];
-    const int width = std::max(surface.codes.width(), static_cast<int>(target.width));
-    const int height = std::max(surface.codes.height(), static_cast<int>(target.height));
-    if (width == surface.codes.width() && height == surface.codes.height()) {
-      continue;
-    }
-    surface.format = target.depth_format;
-    surface.codes = {width, height, tile_size, clear_code(target.depth_format, 1)};
-    surface.fragments = {width, height, tile_size, 0};
-    surface.survivors = {width, height, tile_size, 0};
-    if (keep_visible) {
-      surface.visible = {width, height, tile_size, kNothingVisible};
-    }
-  }
-  return surfaces;
-}
-
-std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config) {
-  std::vector<ZSurface> places;
-  std::uint32_t first = 0;
-  for (const Surface& surface : surfaces) {
-    const auto tiles_x = static_cast<std::uint32_t>(surface.codes.tiles_x());
-    const auto tiles = tiles_x * static_cast<std::uint32_t>(surface.codes.tiles_y());
-    const int samples = config.tile_walker.tile_size * config.tile_walker.tile_size / config.z_cache.parts;
-    places.push_back({.first_tile = first,
-                      .tiles_x = tiles_x,
-                      .tiles = tiles,
-                      .line_bytes = static_cast<std::uint32_t>(samples * sample_bytes(surface.format))});
-    first += tiles;
-  }
-  return places;
-}
-
-std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape) {
-  return surfaces.empty()
-             ? 0
-             : (surfaces.back().first_tile + surfaces.back().tiles) * static_cast<std::uint32_t>(shape.parts);
-}
-
 bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config) {
   return config.z_cache.fast_clear && rect.x_first == 0 && rect.y_first == 0 &&
          rect.x_last == surface.codes.width() - 1 && rect.y_last == surface.codes.height() - 1;
@@ -138,8 +86,7 @@ bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& co
 DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config) {
   const std::uint32_t z = format == DepthFormat::kFloat32 ? code : code << vertex_depth_fraction(format);
   const auto vertex = [&](int x, int y) {
-    return ScreenVertex{
-        .x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
+    return ScreenVertex{.x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
   };
   const ScreenVertex top_left = vertex(rect.x_first, rect.y_first);
   const ScreenVertex top_right = vertex(rect.x_last + 1, rect.y_first);

@@ -1,0 +1,117 @@
+#include "halfspace/cli/run_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "halfspace/report/stats.hpp"
+
+namespace halfspace {
+namespace {
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void row(std::string_view unit, std::uint64_t value, const std::string& what) {
+  fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
+}
+
+/// What bounds the draws, by the cycles of those it bounds.
+void print_bounds(const AnalyticFrame& frame) {
+  std::array<std::uint64_t, kBounds> cycles{};
+  for (const AnalyticDraw& draw : frame.draws) {
+    cycles[static_cast<std::size_t>(draw.bound)] += draw.cycles;
+  }
+  for (std::size_t i = 0; i < kBounds; ++i) {
+    if (cycles[i] != 0) {
+      row(kBoundName[i], cycles[i], "cycles of the draws that it bounds");
+    }
+  }
+}
+
+/// Where the cycles went: each stage's two largest reasons to wait, memory.
+void print_cycles(const FrameResult& result, const FrameCycles& frame) {
+  const auto share = [&frame](std::uint64_t cycles) {
+    return fmt::format("{:.1f}%", percent(cycles, frame.cycles));
+  };
+  for (std::size_t i = 0; i < kStages; ++i) {
+    const StageCycles& cycles = frame.stats.stage[i];
+    std::array<std::size_t, kMostStallReasons> reasons{0, 1, 2, 3, 4};
+    std::partial_sort(reasons.begin(), reasons.begin() + 2, reasons.end(),
+                      [&](std::size_t l, std::size_t r) { return cycles.stall[l] > cycles.stall[r]; });
+    std::string text = "busy";
+    for (const std::size_t reason : {reasons[0], reasons[1]}) {
+      if (cycles.stall[reason] != 0) {
+        text += fmt::format(", {} {}", kStageInfo[i].stall[reason], share(cycles.stall[reason]));
+      }
+    }
+    fmt::print("  {:<16}{:>12}  {}\n", kStageInfo[i].name, share(cycles.busy), text);
+  }
+  const std::uint64_t read = memory_bytes_read(result);
+  const std::uint64_t written = memory_bytes_written(result);
+  row("memory", read + written,
+      fmt::format("bytes; {} read ({} of the cycles), {} written ({})", read, share(frame.stats.read_busy),
+                  written, share(frame.stats.write_busy)));
+}
+
+void print_table(const Frame& frame, const FrameResult& result) {
+  const Counters& c = result.counters;
+  fmt::print("{}: {} draws on {} depth surfaces\n", frame.name, result.draws.size(), result.surfaces.size());
+  row("front end", c.front_end.triangles,
+      fmt::format("triangles; {} clipped away, {} cut, {} not finite", c.front_end.clipped_away,
+                  c.front_end.clipped, c.front_end.non_finite + c.front_end.degenerate));
+  row("setup", c.setup.drawn,
+      fmt::format("drawn; {} face away, {} without area, {} hit no sample, {} outside", c.setup.culled,
+                  c.setup.zero_area, c.setup.no_sample, c.setup.outside));
+  const TileWalkerCounters& w = c.tile_walker;
+  row("tile_walker", c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped,
+      fmt::format("tiles; {} rejected, {} covered whole ({} by their block)", w.tiles_rejected,
+                  c.edge_evaluator.tiles_skipped, w.tiles_by_block));
+  row("edge_evaluator", c.edge_evaluator.tiles,
+      fmt::format(
+          "tiles evaluated; {} empty, {:.1f}% of edges skipped", c.edge_evaluator.tiles_empty,
+          percent(c.edge_evaluator.edges_skipped, c.edge_evaluator.edges + c.edge_evaluator.edges_skipped)));
+  row("quad_generator", c.quad_generator.quads,
+      fmt::format("quads; {} fragments, {} helpers ({:.1f}% of lanes)", c.quad_generator.fragments,
+                  c.quad_generator.helpers, percent(c.quad_generator.helpers, 4 * c.quad_generator.quads)));
+  row("early_z", c.early_z.survivors,
+      fmt::format("fragments survive ({:.1f}%); {} tested, {} written",
+                  percent(c.early_z.survivors, c.quad_generator.fragments), c.early_z.tested,
+                  c.early_z.written));
+  if (result.draws_not_filled != 0) {
+    fmt::print("  {} draws skipped: their polygons are drawn as lines or points\n", result.draws_not_filled);
+  }
+}
+
+/// What the scoreboard of a verilated run says. Returns whether RTL and model agree.
+bool print_report(const rtl::PacketReport& report) {
+  row("model", report.compared,
+      report.different == 0 ? "packets, pixels and counters compared, all equal"
+                            : fmt::format("packets, pixels and counters compared, {} DIFFER; first: {}",
+                                          report.different, report.first));
+  return report.different == 0;
+}
+
+}  // namespace
+
+bool print_result(const Frame& frame, const RunResult& result) {
+  print_table(frame, result.frame);
+  if (const std::optional<std::uint64_t> cycles = result.frame_cycles()) {
+    const auto quads = static_cast<double>(result.frame.counters.quad_generator.quads);
+    row("cycles", *cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(*cycles)));
+  }
+  if (result.cycles) {
+    print_cycles(result.frame, *result.cycles);
+  } else if (result.estimate) {
+    print_bounds(*result.estimate);
+  }
+  return !result.rtl || print_report(*result.rtl);
+}
+
+}  // namespace halfspace

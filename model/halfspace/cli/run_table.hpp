@@ -1,0 +1,12 @@
+/// What a run prints for people.
+#pragma once
+
+#include "halfspace/run/run_result.hpp"
+#include "halfspace/scene/frame.hpp"
+
+namespace halfspace {
+
+/// Prints the table of a run. Returns whether RTL and model agree, where there is RTL.
+bool print_result(const Frame& frame, const RunResult& result);
+
+}  // namespace halfspace

@@ -1,0 +1,35 @@
+/// A draw, or a clear that is drawn, as the units see it while its packets are under way.
+#pragma once
+
+#include <cstdint>
+
+#include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/scene/frame.hpp"
+#include "halfspace/units/counters.hpp"
+#include "halfspace/units/setup.hpp"
+#include "halfspace/units/z_test.hpp"
+
+namespace halfspace {
+
+/// Draw number of what belongs to no draw: clears that are drawn.
+inline constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
+
+/// Every packet points to its own: each unit may be at another draw.
+struct DrawContext {
+  std::uint32_t draw = kNoDraw;  ///< counts the draws of the frame
+  std::uint32_t command = 0;     ///< index in Frame::commands
+  std::uint32_t surface = kNoSurface;
+  std::uint32_t first_triangle = 0;  ///< triangles of the draws before
+  SetupState setup;
+  EarlyZState early_z;
+  bool keeps_visible = false;          ///< its survivors go into Surface::visible
+  PacketObserver* observer = nullptr;  ///< not null where one of the following is set
+  bool record_quads = false;
+  bool record_decisions = false;
+  bool record_jobs = false;
+  Counters counters;
+
+  [[nodiscard]] bool is_clear() const { return draw == kNoDraw; }
+};
+
+}  // namespace halfspace

@@ -1,0 +1,264 @@
+#include "halfspace/machine/in_order.hpp"
+
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/frame_source.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/sink.hpp"
+#include "halfspace/machine/passage/tile_walker.hpp"
+#include "halfspace/machine/passage/z_lookup.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/stream_writer.hpp"
+#include "halfspace/machine/surfaces.hpp"
+#include "halfspace/machine/tile_size.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace {
+namespace {
+
+/// Quads wait here for the cycle of their burst.
+class QuadQueue {
+ public:
+  QuadQueue(PacketObserver* observer, std::uint64_t quads_per_cycle)
+      : observer_(observer), quads_per_cycle_(quads_per_cycle) {}
+
+  /// Quad `number` of the burst that is the next to be counted.
+  void add(const QuadEvent& quad, std::size_t number) {
+    waiting_.push_back({.quad = quad, .burst = bursts_, .number = number});
+  }
+  void count_burst() { ++bursts_; }
+
+  /// Shows the quads of the bursts that were counted. `first_beat`: the cycle of each.
+  void show(const std::vector<std::uint64_t>& first_beat) {
+    for (Waiting& each : waiting_) {
+      each.quad.cycle = first_beat[each.burst] + each.number / quads_per_cycle_;
+      observer_->quad(each.quad);
+    }
+    waiting_.clear();
+    bursts_ = 0;
+  }
+
+ private:
+  struct Waiting {
+    QuadEvent quad;
+    std::size_t burst;
+    std::size_t number;
+  };
+  PacketObserver* observer_;
+  std::uint64_t quads_per_cycle_;
+  std::vector<Waiting> waiting_;
+  std::size_t bursts_ = 0;
+};
+
+template <int TileSize>
+class InOrderRun {
+ public:
+  InOrderRun(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader)
+      : frame_(frame),
+        config_(config),
+        observer_(watch.observer),
+        reader_(reader),
+        walker_(walker_config(config)),
+        quads_(watch.observer, static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {
+    result_.surfaces = make_surfaces(frame, TileSize, watch.keep_visible);
+    places_ = place_surfaces(result_.surfaces, config);
+    const ZCacheShape shape = z_cache_shape(config);
+    z_cache_ = ZCache(shape, memory_lines(places_, shape));
+    if (reader != nullptr) {
+      stream_.emplace(*reader, frame.name);
+      wants_accesses_ = reader->wants_accesses();
+      wants_tiles_ = reader->wants_tiles();
+      wants_cycles_ = observer_ != nullptr && observer_->wants_quads();
+      reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
+    }
+  }
+
+  FrameResult run() {
+    FrameSource source(frame_, config_, observer_, result_, draws_);
+    for (std::uint32_t i = 0; i < frame_.commands.size(); ++i) {
+      DrawContext* const draw = source.begin(i);
+      if (draw != nullptr) {
+        begin(*draw);
+      }
+      while (const std::optional<SourceItem> item = source.next()) {
+        if (item->draw == nullptr) {
+          fast_clear(*item);
+          continue;
+        }
+        for (const ScreenTriangle& triangle : item->triangles) {
+          set_up(triangle);
+        }
+      }
+      if (draw != nullptr && stream_) {
+        stream_->end_segment();
+      }
+    }
+    flush();
+    collect_draws(draws_, result_);
+    return std::move(result_);
+  }
+
+ private:
+  void begin(DrawContext& draw) {
+    draw_ = &draw;
+    surface_ = draw.surface == kNoSurface ? nullptr : &result_.surfaces[draw.surface];
+    touches_depth_ = touches_depth(draw.early_z);
+    if (stream_) {
+      using Kind = StreamSegment::Kind;
+      stream_->begin_segment(draw.is_clear() ? Kind::kDrawnClear : Kind::kDraw, draw.surface, touches_depth_);
+    }
+  }
+
+  void fast_clear(const SourceItem& item) {
+    clear_surface(result_.surfaces[item.surface], item.code);
+    z_cache_.clear(places_[item.surface]);
+    if (stream_) {
+      stream_->begin_segment(StreamSegment::Kind::kFastClear, item.surface, false);
+      stream_->end_segment();
+    }
+  }
+
+  void set_up(const ScreenTriangle& triangle) {
+    if (!passage::setup(triangle, *draw_, triangle_)) {
+      if (stream_) {
+        stream_->dropped();
+      }
+      return;
+    }
+    if (stream_) {
+      stream_->drawn();
+    }
+    const std::uint32_t steps_after = walker_.walk<TileSize>(
+        triangle_, *draw_,
+        [this](const TileJob& job, TileWork work, std::uint32_t steps) { this->job(job, work, steps); });
+    if (stream_) {
+      stream_->walked(steps_after);
+      if (stream_->full()) {
+        give(false);
+      }
+    }
+  }
+
+  void job(const TileJob& job, TileWork work, std::uint32_t steps) {
+    const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, *draw_);
+    int quads = 0;
+    if (any(coverage.mask)) {
+      quads = burst(passage::quad_generator<TileSize>(coverage, *draw_));
+    }
+    if (stream_) {
+      stream_->job(steps, quads);
+      if (wants_tiles_) {
+        stream_->tile({.x = std::uint32_t{job.tile_x} * TileSize, .y = std::uint32_t{job.tile_y} * TileSize});
+      }
+      if (stream_->full()) [[unlikely]] {
+        give(true);
+      }
+    }
+  }
+
+  /// Returns the burst's quads.
+  int burst(const Burst& burst) {
+    const Coverage& coverage = burst.packet.coverage;
+    std::uint32_t* const stored =
+        surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
+    const TileMask passed = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+    passage::sink<TileSize>(coverage.mask, passed, coverage.tile_x, coverage.tile_y, triangle_.triangle,
+                            *draw_, surface_);
+    if (touches_depth_) {
+      look_up(coverage, passed);
+    }
+    if (draw_->record_quads) {
+      show_quads(burst, passed);
+    }
+    quads_.count_burst();
+    return burst.quads;
+  }
+
+  void look_up(const Coverage& coverage, const TileMask& passed) {
+    const int parts = config_.z_cache.parts;
+    const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, *draw_, parts);
+    const std::uint8_t written = passage::written_parts<TileSize>(passed, *draw_, parts);
+    const ZMisses misses =
+        passage::z_cache(z_cache_, places_[draw_->surface], coverage, touched, written, *draw_);
+    if (stream_) {
+      stream_->access(misses.parts());
+      if (wants_accesses_) {
+        constexpr int kBands = stream_bands(TileSize);
+        stream_->access({coverage.tile_x, coverage.tile_y,
+                         passage::touched_parts<TileSize>(coverage, *draw_, kBands),
+                         passage::written_parts<TileSize>(passed, *draw_, kBands)});
+      }
+    }
+  }
+
+  void show_quads(const Burst& burst, const TileMask& passed) {
+    passage::show_quads<TileSize>(burst.packet, passed, codes_.data(), triangle_.triangle, *draw_,
+                                  [this](const QuadEvent& quad, std::size_t number) {
+                                    if (stream_) {
+                                      quads_.add(quad, number);
+                                    } else {
+                                      observer_->quad(quad);
+                                    }
+                                  });
+  }
+
+  void give(bool in_triangle) {
+    stream_->give(in_triangle, wants_cycles_ ? &burst_cycles_ : nullptr);
+    if (wants_cycles_) {
+      quads_.show(burst_cycles_);
+      burst_cycles_.clear();
+    }
+  }
+
+  void flush() {
+    std::vector<ZFlush> lines;
+    z_cache_.flush([&](std::uint32_t slot, std::uint32_t /*line*/, std::uint32_t bytes) {
+      lines.push_back({.slot = slot, .bytes = bytes});
+      ++result_.flushed_lines;
+      result_.flushed_bytes += bytes;
+    });
+    if (stream_) {
+      give(false);
+      reader_->end(lines);
+    }
+  }
+
+  const Frame& frame_;
+  const Config& config_;
+  PacketObserver* observer_;
+  StreamReader* reader_;
+  FrameResult result_;
+  std::vector<ZSurface> places_;  ///< by surface
+  std::deque<DrawContext> draws_;
+  passage::TileWalker walker_;
+  ZCache z_cache_;
+
+  std::optional<StreamWriter> stream_;  ///< where somebody reads
+  bool wants_accesses_ = false;
+  bool wants_tiles_ = false;
+  bool wants_cycles_ = false;
+  QuadQueue quads_;
+  std::vector<std::uint64_t> burst_cycles_;
+
+  // Of the draw at work.
+  DrawContext* draw_ = nullptr;
+  Surface* surface_ = nullptr;  ///< null where the target has no depth
+  bool touches_depth_ = false;
+  SetupTriangle triangle_;
+  TileCodes<TileSize> codes_{};
+};
+
+}  // namespace
+
+FrameResult run_in_order(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
+  return with_tile_size(config.tile_walker.tile_size,
+                        [&](auto size) { return InOrderRun<size()>(frame, config, watch, reader).run(); });
+}
+
+}  // namespace halfspace

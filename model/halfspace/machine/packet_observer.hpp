@@ -1,0 +1,58 @@
+/// Who may watch the packets of a run pass.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "halfspace/scene/frame.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/tile_walker.hpp"
+
+namespace halfspace {
+
+/// A quad as it leaves early_z.
+struct QuadEvent {
+  std::uint32_t draw = 0;      ///< counts the draws of the frame, not its clears
+  std::uint32_t triangle = 0;  ///< in the draw
+  std::uint32_t surface = kNoSurface;
+  std::uint32_t x = 0;  ///< top left pixel
+  std::uint32_t y = 0;
+  std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
+  std::uint8_t passed = 0;  ///< the same bits after early-Z
+  std::array<std::uint32_t, 4> depth{};  ///< codes; 0 for helpers and where there is no depth surface
+  std::uint64_t cycle = 0;               ///< leaves early_z; 0 when untimed
+};
+
+/// A decision of the walker.
+struct DecisionEvent {
+  std::uint32_t draw = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t surface = kNoSurface;
+  std::uint32_t x = 0;  ///< top left pixel
+  std::uint32_t y = 0;
+  std::uint32_t size = 0;
+  TileVerdict verdict = TileVerdict::kReject;
+};
+
+/// Sees the packets of a stage in order; quads may come later than the decisions and jobs that led to them.
+/// Override what is of interest and say so.
+class PacketObserver {
+ public:
+  virtual ~PacketObserver() = default;
+  [[nodiscard]] virtual bool wants_quads() const { return false; }
+  [[nodiscard]] virtual bool wants_decisions() const { return false; }
+  [[nodiscard]] virtual bool wants_tile_jobs() const { return false; }
+  virtual void quad(const QuadEvent&) {}
+  virtual void decision(const DecisionEvent&) {}
+  virtual void tile_job(const TileJob&) {}
+  virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
+};
+
+/// What a run keeps beside its counts.
+struct Watch {
+  bool keep_visible = false;           ///< fill Surface::visible: 4 bytes a pixel more
+  PacketObserver* observer = nullptr;  ///< must outlive the run
+};
+
+}  // namespace halfspace

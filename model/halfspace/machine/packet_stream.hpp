@@ -1,0 +1,140 @@
+/// The packets of a frame as a stream: all that time depends on, and nothing that only function needs.
+///
+/// Whoever runs the units writes it (machine/in_order.hpp), in chunks; whoever has time reads it: the
+/// recurrence, its lanes, the analytic engine, the record. A tile job is one word whatever it holds, and a
+/// burst that has to do with stored depth one more. Chunks may end anywhere, also inside a triangle; put
+/// together in order they are the stream of the frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "halfspace/scene/frame.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace {
+
+/// Steps that a StreamJob can hold.
+inline constexpr std::uint32_t kMostSteps = 1u << 24;
+
+/// A tile job: steps of the walker since the job before, its own included, 1 to kMostSteps; and its quads, 0
+/// to 64. 0: no sample is covered, and nothing leaves the quad generator.
+class StreamJob {
+ public:
+  StreamJob() = default;
+  StreamJob(std::uint32_t steps, int quads) : word_((steps - 1) | static_cast<std::uint32_t>(quads) << 24) {}
+  explicit StreamJob(std::uint32_t word) : word_(word) {}
+  [[nodiscard]] std::uint32_t steps() const { return (word_ & 0xFFFFFFu) + 1; }
+  [[nodiscard]] int quads() const { return static_cast<int>(word_ >> 24); }
+  [[nodiscard]] std::uint32_t word() const { return word_; }
+
+ private:
+  std::uint32_t word_ = 0;
+};
+
+/// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
+/// half in tiles of 4 x 4), that it touches and writes.
+class StreamAccess {
+ public:
+  StreamAccess() = default;
+  StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written)
+      : word_(tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28) {}
+  explicit StreamAccess(std::uint32_t word) : word_(word) {}
+  [[nodiscard]] std::uint32_t tile_x() const { return word_ & 0xFFF; }
+  [[nodiscard]] std::uint32_t tile_y() const { return word_ >> 12 & 0xFFF; }
+  [[nodiscard]] std::uint8_t touched() const { return word_ >> 24 & 0xF; }
+  [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(word_ >> 28); }
+  [[nodiscard]] std::uint32_t word() const { return word_; }
+
+ private:
+  std::uint32_t word_ = 0;
+};
+
+/// Bands of a tile that a StreamAccess tells apart.
+constexpr int stream_bands(int tile_size) { return tile_size == 4 ? 2 : 4; }
+
+/// A triangle that setup gave to the walker, with the dropped ones before it.
+struct StreamTriangle {
+  std::uint32_t dropped_before = 0;
+  std::uint32_t jobs = 0;
+  std::uint32_t steps_after = 0;  ///< of the walker, after the last job
+};
+
+/// What the machine does in one go.
+struct StreamSegment {
+  enum class Kind : std::uint32_t { kDraw, kDrawnClear, kFastClear };
+  Kind kind = Kind::kDraw;
+  std::uint32_t surface = kNoSurface;  ///< depth surface
+  std::uint32_t touches_depth = 0;     ///< 1: each of its bursts has to do with stored depth
+  std::uint32_t triangles = 0;         ///< given to the walker
+  std::uint32_t dropped_after = 0;     ///< after the last of them
+};
+
+struct StreamSurface {
+  std::uint32_t tiles_x = 0;
+  std::uint32_t tiles = 0;
+  std::uint32_t sample_bytes = 4;  ///< 2 or 4
+};
+
+/// Each list is in order and belongs to the one before.
+struct PacketStream {
+  std::vector<StreamSegment> segments;
+  std::vector<StreamTriangle> triangles;
+  std::vector<StreamJob> jobs;
+  std::vector<StreamAccess> accesses;  ///< of the bursts of segments that touch depth
+};
+
+/// What the z cache of one machine says to the bursts of a stream. It does not depend on time.
+struct ZMissStream {
+  std::vector<ZMiss> misses;         ///< of all bursts, in order
+  std::vector<std::uint32_t> burst;  ///< the access each miss belongs to; then one that no access has
+};
+
+/// Ends ZMissStream::burst.
+inline constexpr std::uint32_t kNoBurst = 0xFFFFFFFFu;
+
+/// A dirty line of the z cache at the end of the frame.
+struct ZFlush {
+  std::uint32_t slot = 0;
+  std::uint32_t bytes = 0;
+};
+
+/// The top left pixel of a tile job.
+struct StreamTile {
+  std::uint32_t x = 0;
+  std::uint32_t y = 0;
+};
+
+/// A part of a stream, or all of it, for who reads it.
+struct StreamView {
+  std::span<const StreamSegment> segments;
+  std::span<const StreamTriangle> triangles;
+  std::span<const StreamJob> jobs;
+  std::span<const StreamAccess> accesses;  ///< empty where the reader did not ask for them
+  std::span<const ZMiss> misses;           ///< see ZMissStream
+  std::span<const std::uint32_t> miss_burst;
+  std::span<const StreamTile> tiles;  ///< one a job; empty where the reader did not ask for them
+  bool continues_segment = false;     ///< the first segment began in the part before
+  bool continues_triangle = false;    ///< so did the first triangle
+  bool open_segment = false;          ///< the last segment goes on in the next part
+  bool open_triangle = false;         ///< so does the last triangle
+};
+
+/// Reads the stream of a frame while the units run.
+class StreamReader {
+ public:
+  virtual ~StreamReader() = default;
+  [[nodiscard]] virtual bool wants_accesses() const { return false; }
+  [[nodiscard]] virtual bool wants_tiles() const { return false; }
+
+  /// Before the first part. `memory_lines`: lines of memory that all surfaces take.
+  virtual void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) = 0;
+  /// The next part. Where `burst_cycles` is not null, appends for each of its bursts the cycle in which the
+  /// first beat leaves early_z; 0 where the reader has no time.
+  virtual void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) = 0;
+  /// The end of the frame: the lines that the z cache writes back.
+  virtual void end(std::span<const ZFlush> dirty) = 0;
+};
+
+}  // namespace halfspace

@@ -1,0 +1,48 @@
+/// A burst's passage through the lookup of early_z: the parts of its tile that have to do with stored depth,
+/// and what the z cache says to them.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace::passage {
+
+/// Bit i: part i of the tile, of `parts`, has to do with stored depth.
+template <int TileSize>
+std::uint8_t touched_parts(const Coverage& coverage, const DrawContext& draw, int parts) {
+  return touches_depth(draw.early_z) ? parts_of_mask<TileSize>(coverage.mask, parts) : std::uint8_t{0};
+}
+
+/// Bit i: some fragment writes to part i.
+template <int TileSize>
+std::uint8_t written_parts(const TileMask& passed, const DrawContext& draw, int parts) {
+  return draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0};
+}
+
+/// Counts a burst that touched `touched` parts, and the lines that moved for it.
+inline void count_z_cache(DrawContext& draw, std::uint8_t touched, const ZMisses& misses) {
+  EarlyZCounters& counters = draw.counters.early_z;
+  ++counters.z_bursts;
+  counters.z_hits += static_cast<std::uint64_t>(std::popcount(touched)) - misses.count;
+  counters.z_misses += misses.count;
+  for (const ZMiss& part : misses.parts()) {
+    counters.z_cleared += part.fetch ? 0 : 1;
+    counters.bytes_read += part.fetch ? part.bytes : 0;
+    counters.z_evicted += part.write_back ? 1 : 0;
+    counters.bytes_written += part.write_back ? part.victim_bytes : 0;
+  }
+}
+
+/// Both halves of the z cache at once, for engines that take one burst after the other through lookup and
+/// test. `touched` must not be 0.
+inline ZMisses z_cache(ZCache& cache, const ZSurface& surface, const Coverage& coverage, std::uint8_t touched,
+                       std::uint8_t written, DrawContext& draw) {
+  const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, touched, written);
+  count_z_cache(draw, touched, misses);
+  return misses;
+}
+
+}  // namespace halfspace::passage

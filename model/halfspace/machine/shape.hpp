@@ -1,0 +1,154 @@
+/// The machine's shape: its stages with their reasons to wait, the FIFOs between them with their capacities,
+/// and the places where stalls can be injected.
+///
+/// These tables are the one source of enumerations, names and array sizes in C++, of the activities and
+/// probe events in rtl/raster_pkg.sv (report/raster_pkg.hpp), and of the names in reports. A new stage is a
+/// row of HALFSPACE_STAGES, one of HALFSPACE_LINKS and its events. docs/units has the meaning of each reason.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "halfspace/config/config.hpp"
+
+namespace halfspace {
+
+// clang-format off
+/// S(Identifier, name, reasons to wait in order of priority). The first reason of every stage is that it has
+/// nothing to do. In the order of the pipe.
+#define HALFSPACE_STAGES(S)                                                                                  \
+  S(Setup,         setup,          "no_triangle", "divider", "no_credit")                                    \
+  S(TileWalker,    tile_walker,    "no_triangle", "load", "no_credit")                                       \
+  S(EdgeEvaluator, edge_evaluator, "no_tile", "no_credit")                                                   \
+  S(QuadGenerator, quad_generator, "no_coverage", "no_credit")                                               \
+  S(ZLookup,       z_lookup,       "no_burst", "pending_full", "write_back", "fill_buffers", "request")      \
+  S(ZTest,         z_test,         "no_burst", "fill", "write_buffer", "no_credit")
+
+/// L(Identifier, name, key of its capacity). The links, by the unit that fills them; the queue and the pending
+/// store are inside setup and early_z.
+#define HALFSPACE_LINKS(L)                                                                                   \
+  L(SetupQueue,    setup_queue,     setup.queue)                                                             \
+  L(Setup,         setup,           setup.fifo)                                                              \
+  L(TileWalker,    tile_walker,     tile_walker.fifo)                                                        \
+  L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo)                                                     \
+  L(QuadGenerator, quad_generator,  quad_generator.fifo)                                                     \
+  L(EarlyZPending, early_z_pending, early_z.pending)                                                         \
+  L(EarlyZ,        early_z,         early_z.fifo)
+
+/// The same for the buffers of the memory side: FIFOs with credits, but no links.
+#define HALFSPACE_BUFFERS(B)                                                                                 \
+  B(FillBuffers,   fill_buffers,    z_cache.misses_in_flight)                                                \
+  B(WriteBuffers,  write_buffers,   z_cache.write_buffers)
+
+/// P(Identifier, name): packet n of a link counts as visible so many cycles later; triangle n of the source
+/// arrives, and burst n at the sink is taken, so many cycles later.
+#define HALFSPACE_STALL_POINTS(P)                                                                            \
+  P(Source,        source)                                                                                   \
+  P(Setup,         setup)                                                                                    \
+  P(TileWalker,    tile_walker)                                                                              \
+  P(EdgeEvaluator, edge_evaluator)                                                                           \
+  P(QuadGenerator, quad_generator)                                                                           \
+  P(Sink,          sink)
+
+/// E(Identifier, meaning): what can happen in a cycle of the RTL, a bit each in the probe of its bench.
+#define HALFSPACE_EVENTS(E)                                                                                  \
+  E(Decide,    "setup draws or drops a triangle")                                                            \
+  E(Accept,    "tile_walker takes a triangle")                                                               \
+  E(Emit,      "tile_walker makes a tile job")                                                               \
+  E(Job,       "edge_evaluator takes a tile job")                                                            \
+  E(Coverage,  "quad_generator takes a coverage")                                                            \
+  E(Beat,      "z_lookup takes a beat")                                                                      \
+  E(FirstBeat, "it is the first of its burst")                                                               \
+  E(LastBeat,  "it is the last of its burst")                                                                \
+  E(TestFirst, "z_test tests the first beat of a burst")                                                     \
+  E(TestLast,  "z_test tests the last beat of a burst")
+// clang-format on
+
+// Enumerators are k##Identifier, numbered by their row.
+#define HALFSPACE_ENUMERATOR(identifier, ...) k##identifier,
+#define HALFSPACE_NAME(identifier, name, ...) std::string_view{#name},
+#define HALFSPACE_ONE(...) +1
+
+enum class Stage : std::uint8_t { HALFSPACE_STAGES(HALFSPACE_ENUMERATOR) };
+inline constexpr std::size_t kStages = HALFSPACE_STAGES(HALFSPACE_ONE);
+
+inline constexpr std::size_t kMostStallReasons = 5;
+
+struct StageInfo {
+  std::string_view name;
+  std::array<std::string_view, kMostStallReasons> stall;  ///< empty where there is no further reason
+};
+
+#define HALFSPACE_STAGE_INFO(identifier, name, ...) StageInfo{#name, {__VA_ARGS__}},
+inline constexpr std::array<StageInfo, kStages> kStageInfo{HALFSPACE_STAGES(HALFSPACE_STAGE_INFO)};
+#undef HALFSPACE_STAGE_INFO
+
+/// Position of a reason in StageInfo::stall. Does not compile for a name that is not in the table.
+consteval std::size_t stall_reason(Stage stage, std::string_view name) {
+  const auto& reasons = kStageInfo[static_cast<std::size_t>(stage)].stall;
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    if (reasons[i] == name) {
+      return i;
+    }
+  }
+  throw "no such reason";
+}
+
+namespace stall {
+inline constexpr std::size_t kNoInput = 0;
+inline constexpr std::size_t kSetupDivider = stall_reason(Stage::kSetup, "divider");
+inline constexpr std::size_t kSetupNoCredit = stall_reason(Stage::kSetup, "no_credit");
+inline constexpr std::size_t kWalkerLoad = stall_reason(Stage::kTileWalker, "load");
+inline constexpr std::size_t kWalkerNoCredit = stall_reason(Stage::kTileWalker, "no_credit");
+inline constexpr std::size_t kEdgeNoCredit = stall_reason(Stage::kEdgeEvaluator, "no_credit");
+inline constexpr std::size_t kQuadNoCredit = stall_reason(Stage::kQuadGenerator, "no_credit");
+inline constexpr std::size_t kLookupPendingFull = stall_reason(Stage::kZLookup, "pending_full");
+inline constexpr std::size_t kLookupWriteBack = stall_reason(Stage::kZLookup, "write_back");
+inline constexpr std::size_t kLookupFillBuffers = stall_reason(Stage::kZLookup, "fill_buffers");
+inline constexpr std::size_t kLookupRequest = stall_reason(Stage::kZLookup, "request");
+inline constexpr std::size_t kTestFill = stall_reason(Stage::kZTest, "fill");
+inline constexpr std::size_t kTestWriteBuffer = stall_reason(Stage::kZTest, "write_buffer");
+inline constexpr std::size_t kTestNoCredit = stall_reason(Stage::kZTest, "no_credit");
+}  // namespace stall
+
+enum class Link : std::uint8_t { HALFSPACE_LINKS(HALFSPACE_ENUMERATOR) };
+inline constexpr std::size_t kLinks = HALFSPACE_LINKS(HALFSPACE_ONE);
+inline constexpr std::array<std::string_view, kLinks> kLinkName{HALFSPACE_LINKS(HALFSPACE_NAME)};
+
+/// Everything with credits: the links, in their order, then the buffers.
+enum class Fifo : std::uint8_t {
+  HALFSPACE_LINKS(HALFSPACE_ENUMERATOR) HALFSPACE_BUFFERS(HALFSPACE_ENUMERATOR)
+};
+inline constexpr std::size_t kFifos = kLinks HALFSPACE_BUFFERS(HALFSPACE_ONE);
+inline constexpr std::array<std::string_view, kFifos> kFifoName{HALFSPACE_LINKS(HALFSPACE_NAME)
+                                                                    HALFSPACE_BUFFERS(HALFSPACE_NAME)};
+
+/// Of each FIFO, in packets.
+inline std::array<int, kFifos> capacities(const Config& config) {
+#define HALFSPACE_CAPACITY(identifier, name, key) config.key,
+  return {HALFSPACE_LINKS(HALFSPACE_CAPACITY) HALFSPACE_BUFFERS(HALFSPACE_CAPACITY)};
+#undef HALFSPACE_CAPACITY
+}
+
+enum class StallPoint : std::uint8_t { HALFSPACE_STALL_POINTS(HALFSPACE_ENUMERATOR) };
+inline constexpr std::size_t kStallPoints = HALFSPACE_STALL_POINTS(HALFSPACE_ONE);
+inline constexpr std::array<std::string_view, kStallPoints> kStallPointName{
+    HALFSPACE_STALL_POINTS(HALFSPACE_NAME)};
+
+enum class Event : std::uint8_t { HALFSPACE_EVENTS(HALFSPACE_ENUMERATOR) };
+inline constexpr std::size_t kEvents = HALFSPACE_EVENTS(HALFSPACE_ONE);
+struct EventInfo {
+  std::string_view name;
+  std::string_view meaning;
+};
+#define HALFSPACE_EVENT_INFO(identifier, meaning) EventInfo{#identifier, meaning},
+inline constexpr std::array<EventInfo, kEvents> kEventInfo{HALFSPACE_EVENTS(HALFSPACE_EVENT_INFO)};
+#undef HALFSPACE_EVENT_INFO
+
+#undef HALFSPACE_ENUMERATOR
+#undef HALFSPACE_NAME
+#undef HALFSPACE_ONE
+
+}  // namespace halfspace

@@ -1,0 +1,65 @@
+#include "halfspace/machine/stream_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "halfspace/numerics/error.hpp"
+
+namespace halfspace {
+
+StreamWriter::StreamWriter(StreamReader& reader, std::string frame)
+    : reader_(reader), frame_(std::move(frame)) {}
+
+void StreamWriter::begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth) {
+  packets_.segments.push_back({.kind = kind, .surface = surface, .touches_depth = touches_depth ? 1u : 0u});
+  in_segment_ = true;
+}
+
+void StreamWriter::end_segment() {
+  packets_.segments.back().dropped_after = std::exchange(dropped_, 0);
+  in_segment_ = false;
+}
+
+void StreamWriter::refuse_steps(std::uint32_t steps) const {
+  throw InputError(fmt::format("{}: {} steps of the walker without a tile job; legal: at most {}", frame_,
+                               steps, kMostSteps));
+}
+
+void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycles) {
+  z_.burst.push_back(kNoBurst);
+  reader_.read({.segments = packets_.segments,
+                .triangles = packets_.triangles,
+                .jobs = packets_.jobs,
+                .accesses = packets_.accesses,
+                .misses = z_.misses,
+                .miss_burst = z_.burst,
+                .tiles = tiles_,
+                .continues_segment = continues_segment_,
+                .continues_triangle = continues_triangle_,
+                .open_segment = in_segment_,
+                .open_triangle = in_triangle},
+               burst_cycles);
+  // What goes on begins the next part.
+  const StreamSegment segment = packets_.segments.empty() ? StreamSegment{} : packets_.segments.back();
+  packets_.segments.clear();
+  packets_.triangles.clear();
+  packets_.jobs.clear();
+  packets_.accesses.clear();
+  z_.misses.clear();
+  z_.burst.clear();
+  tiles_.clear();
+  accesses_ = 0;
+  continues_segment_ = in_segment_;
+  continues_triangle_ = in_triangle;
+  if (in_segment_) {
+    packets_.segments.push_back(
+        {.kind = segment.kind, .surface = segment.surface, .touches_depth = segment.touches_depth});
+  }
+  if (in_triangle) {
+    packets_.triangles.push_back({});
+    ++packets_.segments.back().triangles;
+  }
+}
+
+}  // namespace halfspace

@@ -1,0 +1,72 @@
+#include "halfspace/machine/surfaces.hpp"
+
+#include <algorithm>
+
+namespace halfspace {
+
+ZCacheShape z_cache_shape(const Config& config) {
+  return {.lines = config.z_cache.lines, .ways = config.z_cache.ways, .parts = config.z_cache.parts};
+}
+
+std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible) {
+  std::vector<Surface> surfaces;
+  for (const Target& target : frame.targets) {
+    if (target.depth_surface == kNoSurface) {
+      continue;
+    }
+    if (target.depth_surface >= surfaces.size()) {
+      surfaces.resize(target.depth_surface + 1);
+    }
+    Surface& surface = surfaces[target.depth_surface];
+    const int width = std::max(surface.codes.width(), static_cast<int>(target.width));
+    const int height = std::max(surface.codes.height(), static_cast<int>(target.height));
+    if (width == surface.codes.width() && height == surface.codes.height()) {
+      continue;
+    }
+    surface.format = target.depth_format;
+    surface.codes = {width, height, tile_size, clear_code(target.depth_format, 1)};
+    surface.fragments = {width, height, tile_size, 0};
+    surface.survivors = {width, height, tile_size, 0};
+    if (keep_visible) {
+      surface.visible = {width, height, tile_size, kNothingVisible};
+    }
+  }
+  return surfaces;
+}
+
+std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces) {
+  std::vector<StreamSurface> list;
+  for (const Surface& surface : surfaces) {
+    const auto tiles_x = static_cast<std::uint32_t>(surface.codes.tiles_x());
+    list.push_back({.tiles_x = tiles_x,
+                    .tiles = tiles_x * static_cast<std::uint32_t>(surface.codes.tiles_y()),
+                    .sample_bytes = static_cast<std::uint32_t>(sample_bytes(surface.format))});
+  }
+  return list;
+}
+
+std::vector<ZSurface> place_surfaces(const std::vector<StreamSurface>& surfaces, int tile_size, int parts) {
+  std::vector<ZSurface> places;
+  std::uint32_t first = 0;
+  const auto samples = static_cast<std::uint32_t>(tile_size * tile_size / parts);
+  for (const StreamSurface& surface : surfaces) {
+    places.push_back({.first_tile = first,
+                      .tiles_x = surface.tiles_x,
+                      .tiles = surface.tiles,
+                      .line_bytes = samples * surface.sample_bytes});
+    first += surface.tiles;
+  }
+  return places;
+}
+
+std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config) {
+  return place_surfaces(stream_surfaces(surfaces), config.tile_walker.tile_size, config.z_cache.parts);
+}
+
+std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape) {
+  return surfaces.empty()
+             ? 0
+             : (surfaces.back().first_tile + surfaces.back().tiles) * static_cast<std::uint32_t>(shape.parts);
+}
+
+}  // namespace halfspace

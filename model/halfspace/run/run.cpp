@@ -1,0 +1,111 @@
+#include "halfspace/run/run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "halfspace/machine/functional.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "halfspace/timing/rtl/pipeline_library.hpp"
+#include "halfspace/timing/rtl/run_rtl.hpp"
+#include "halfspace/timing/systemc/run_systemc.hpp"
+
+namespace halfspace {
+namespace {
+
+void check_options(Fidelity fidelity, const RunOptions& options) {
+  require(fidelity, options.stalls.any(), "a stall", &FidelityInfo::packets);
+  require(fidelity, options.packet_times, "the time of every packet", &FidelityInfo::packets);
+  require(fidelity, options.cycle_observer != nullptr, "a timeline", &FidelityInfo::timeline);
+  require(fidelity, !options.vcd.empty(), "a VCD file", &FidelityInfo::vcd);
+  require(fidelity, !options.wave.empty(), "an FST file", &FidelityInfo::rtl);
+}
+
+/// Names of the fidelities that `support` something, or of all.
+std::string fidelity_names(bool FidelityInfo::*support = nullptr) {
+  std::vector<std::string_view> names;
+  for (const FidelityInfo& each : kFidelityInfo) {
+    if (support == nullptr || each.*support) {
+      names.push_back(each.name);
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+RunResult timed(TimedResult result) {
+  return {.frame = std::move(result.frame),
+          .cycles = std::move(result.cycles),
+          .estimate = {},
+          .times = std::move(result.times),
+          .rtl = {}};
+}
+
+RunResult verilated(const Frame& frame, const Config& config, const EngineOptions& engine,
+                    const RunOptions& options) {
+  const std::unique_ptr<rtl::VerilatedPipeline> pipeline =
+      rtl::load_pipeline(config, options.rtl_folder, options.rtl_seed);
+  if (!options.wave.empty()) {
+    pipeline->trace_to(options.wave);
+  }
+  RtlResult result = run_rtl(frame, config, engine, *pipeline);
+  RunResult run = timed(std::move(result.timed));
+  run.rtl = std::move(result.report);
+  return run;
+}
+
+}  // namespace
+
+Fidelity fidelity_of(std::string_view name) {
+  const auto* const found = std::ranges::find(kFidelityInfo, name, &FidelityInfo::name);
+  if (found == kFidelityInfo.end()) {
+    throw InputError(fmt::format("fidelity is '{}'; legal: {}", name, fidelity_names()));
+  }
+  return found->fidelity;
+}
+
+void require(Fidelity fidelity, bool given, std::string_view option, bool FidelityInfo::*support) {
+  if (given && !(info(fidelity).*support)) {
+    throw InputError(fmt::format("fidelity is '{}', which does not support {}; legal with it: {}",
+                                 info(fidelity).name, option, fidelity_names(support)));
+  }
+}
+
+RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options) {
+  check_options(fidelity, options);
+  const EngineOptions engine{.watch = options.watch,
+                             .stalls = options.stalls,
+                             .packet_times = options.packet_times,
+                             .observer = options.cycle_observer};
+  switch (fidelity) {
+    case Fidelity::kFunctional:
+      return {.frame = run_functional(frame, config, options.watch),
+              .cycles = {},
+              .estimate = {},
+              .times = {},
+              .rtl = {}};
+    case Fidelity::kAnalytic: {
+      AnalyticResult result = run_analytic(frame, config, options.watch);
+      return {.frame = std::move(result.frame),
+              .cycles = {},
+              .estimate = std::move(result.estimate),
+              .times = {},
+              .rtl = {}};
+    }
+    case Fidelity::kRecurrence:
+      return timed(run_recurrence(frame, config, engine));
+    case Fidelity::kSystemc:
+      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd}));
+    case Fidelity::kRtl:
+      return verilated(frame, config, engine, options);
+  }
+  throw std::logic_error("a fidelity that is not in HALFSPACE_FIDELITIES");
+}
+
+}  // namespace halfspace

@@ -1,0 +1,63 @@
+/// The fidelities, and what a run in any of them gives.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/timing/analytic/analytic.hpp"
+#include "halfspace/timing/cycle_stats.hpp"
+#include "halfspace/timing/rtl/packet_check.hpp"
+
+namespace halfspace {
+
+// clang-format off
+/// F(Identifier, name, packets, timeline, vcd, rtl): a timing engine, and what it supports:
+///   packets   it knows when every packet moves, and stalls can be injected
+///   timeline  it tells where the cycles go
+///   vcd       it writes a waveform
+///   rtl       it runs the verilated SystemVerilog
+#define HALFSPACE_FIDELITIES(F)                            \
+  F(Functional, functional, false, false, false, false)    \
+  F(Analytic,   analytic,   false, false, false, false)    \
+  F(Recurrence, recurrence, true,  true,  false, false)    \
+  F(Systemc,    systemc,    true,  false, true,  false)    \
+  F(Rtl,        rtl,        true,  false, false, true)
+// clang-format on
+
+#define HALFSPACE_FIDELITY(identifier, ...) k##identifier,
+enum class Fidelity : std::uint8_t { HALFSPACE_FIDELITIES(HALFSPACE_FIDELITY) };
+#undef HALFSPACE_FIDELITY
+
+struct FidelityInfo {
+  Fidelity fidelity;
+  std::string_view name;
+  bool packets;
+  bool timeline;
+  bool vcd;
+  bool rtl;
+};
+
+#define HALFSPACE_FIDELITY(identifier, name, ...) FidelityInfo{Fidelity::k##identifier, #name, __VA_ARGS__},
+inline constexpr std::array kFidelityInfo{HALFSPACE_FIDELITIES(HALFSPACE_FIDELITY)};
+#undef HALFSPACE_FIDELITY
+
+constexpr const FidelityInfo& info(Fidelity fidelity) {
+  return kFidelityInfo[static_cast<std::size_t>(fidelity)];
+}
+
+struct RunResult {
+  FrameResult frame;
+  std::optional<FrameCycles> cycles;      ///< where the fidelity has packets
+  std::optional<AnalyticFrame> estimate;  ///< of `analytic`
+  PacketTimes times;                      ///< on request, where the fidelity has packets
+  std::optional<rtl::PacketReport> rtl;   ///< of `rtl`: where it differs from the model
+
+  [[nodiscard]] std::optional<std::uint64_t> frame_cycles() const {
+    return cycles ? std::optional(cycles->cycles) : estimate ? std::optional(estimate->cycles) : std::nullopt;
+  }
+};
+
+}  // namespace halfspace

@@ -1,0 +1,276 @@
+/// The scoreboard of the verilated pipeline: what the C++ units say of each packet that moves on a link.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <utility>
+
+#include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/tile_walker.hpp"
+#include "halfspace/machine/passage/z_lookup.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/tokens.hpp"
+#include "halfspace/timing/rtl/memory_port.hpp"
+#include "halfspace/timing/rtl/run_state.hpp"
+#include "halfspace/timing/rtl/tested_sink.hpp"
+#include "halfspace/units/quad_beats.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace::rtl {
+
+template <int TileSize>
+class Scoreboard {
+ public:
+  Scoreboard(RunState& run, MemoryPort& memory, TestedSink<TileSize>& sink)
+      : run_(run),
+        memory_(memory),
+        sink_(sink),
+        walker_config_(walker_config(run.config)),
+        walker_(walker_config_),
+        z_cache_(z_cache_shape(run.config), memory_lines(run.places, z_cache_shape(run.config))),
+        triangle_check_("setup", run.widths, run.report),
+        equation_check_("setup (depth equation)", run.widths, run.report),
+        state_check_("setup (draw state)", run.widths, run.report),
+        job_check_("tile_walker", run.widths, run.report),
+        coverage_check_("edge_evaluator", run.widths, run.report),
+        beat_check_("quad_generator", run.widths, run.report) {}
+
+  // What goes in.
+
+  /// Setup takes a triangle.
+  void take_triangle(const ScreenTriangle& triangle, DrawContext& draw, const DrawStatePacket& state) {
+    SetupTriangle equations;
+    const bool drawn = passage::setup(triangle, draw, equations);
+    run_.meter.take(Link::kSetupQueue, &draw, run_.cycle);
+    TriangleToken& decision = decisions_.emplace_back(TriangleToken{.draw = &draw, .triangle = nullptr});
+    if (drawn) {
+      decision.triangle = std::make_shared<const SetupTriangle>(equations);
+      triangles_.push_back({.token = decision, .state = state});
+    }
+  }
+
+  void clear(std::uint32_t surface, std::uint32_t code) {
+    clear_surface(run_.result.surfaces[surface], code);
+    z_cache_.clear(run_.places[surface]);
+    memory_.clear(run_.places[surface]);
+    run_.clear_code[surface] = code;
+  }
+
+  void flush() {
+    z_cache_.flush([&](std::uint32_t /*slot*/, std::uint32_t line, std::uint32_t /*bytes*/) {
+      memory_.expect_write(nullptr, line);
+    });
+  }
+
+  // What happens in the cycle.
+
+  /// The stages that begin with a packet in this cycle: it is this packet's.
+  void begin_packets() {
+    const auto begins = [this](Event event, Stage stage, const auto& queue) {
+      if (run_.happens(event) && !queue.empty()) {
+        run_.meter.begins(stage, queue.front().draw);
+      }
+    };
+    begins(Event::kDecide, Stage::kSetup, decisions_);
+    begins(Event::kJob, Stage::kEdgeEvaluator, jobs_);
+    begins(Event::kCoverage, Stage::kQuadGenerator, coverages_);
+    begins(Event::kFirstBeat, Stage::kZLookup, bursts_);
+    if (run_.happens(Event::kTestFirst) && !to_test_.empty()) {
+      run_.meter.begins(Stage::kZTest, to_test_.front());
+    }
+  }
+
+  /// The packets that move in it, in the order of the pipe.
+  void links() {
+    if (run_.happens(Event::kDecide) && run_.expected(decisions_, "setup (decision)")) {
+      decide();
+    }
+    if (run_.happens(Event::kAccept) && run_.expected(triangles_, "setup")) {
+      accept();
+    }
+    if (run_.happens(Event::kEmit) && run_.expected(to_emit_, "tile_walker (emission)")) {
+      run_.meter.take(Link::kTileWalker, to_emit_.front(), run_.cycle);
+      to_emit_.pop_front();
+      run_.note(&PacketTimes::emit);
+    }
+    if (run_.happens(Event::kJob) && run_.expected(jobs_, "tile_walker")) {
+      job();
+    }
+    if (run_.happens(Event::kCoverage) && run_.expected(coverages_, "edge_evaluator")) {
+      coverage();
+    }
+    if (run_.happens(Event::kBeat) && run_.expected(beats_, "quad_generator")) {
+      beat();
+    }
+    if (run_.happens(Event::kTestFirst) && run_.expected(to_test_, "early_z (test)")) {
+      begin_test();
+    }
+    for (std::uint32_t n = run_.out.events >> kWritesShift; n > 0; --n) {
+      memory_.buffer_write(run_.flushing ? nullptr : tested_draw_);
+    }
+    if (run_.happens(Event::kTestLast)) {
+      run_.meter.give_back(Link::kEarlyZPending, run_.cycle + 1);
+    }
+  }
+
+  void expect_no_more() {
+    run_.expect_no_more(decisions_, "setup (decision)");
+    run_.expect_no_more(triangles_, "setup");
+    run_.expect_no_more(to_emit_, "tile_walker (emission)");
+    run_.expect_no_more(jobs_, "tile_walker");
+    run_.expect_no_more(coverages_, "edge_evaluator");
+    run_.expect_no_more(beats_, "quad_generator");
+  }
+
+ private:
+  struct ExpectedTriangle {
+    TriangleToken token;
+    DrawStatePacket state;
+  };
+
+  template <class Token>
+  static Token take(std::deque<Token>& queue) {
+    Token token = std::move(queue.front());
+    queue.pop_front();
+    return token;
+  }
+
+  void decide() {
+    const TriangleToken decision = take(decisions_);
+    run_.meter.give_back(Link::kSetupQueue, run_.cycle + 1);
+    run_.note(&PacketTimes::decide);
+    if (decision.triangle != nullptr) {
+      run_.meter.take(Link::kSetup, decision.draw, run_.cycle);
+    }
+  }
+
+  void accept() {
+    const ExpectedTriangle expected = take(triangles_);
+    const auto& [draw, triangle] = expected.token;
+    run_.meter.begins(Stage::kTileWalker, draw);  // the cycle itself is still that of the triangle before
+    run_.meter.give_back(Link::kSetup, run_.cycle + 1);
+    run_.note(&PacketTimes::accept);
+    triangle_check_.compare(run_.cycle, to_packet(*triangle, walker_config_, TileSize),
+                            run_.pipeline.setup_triangle());
+    equation_check_.compare(run_.cycle, to_packet(*triangle, draw->setup.depth_format),
+                            run_.pipeline.depth_equation());
+    state_check_.compare(run_.cycle, expected.state, run_.pipeline.draw_state());
+    const TriangleToken& token = expected.token;
+    walker_.walk<TileSize>(
+        *token.triangle, *token.draw, [&](const TileJob& job, TileWork work, std::uint32_t /*steps*/) {
+          to_emit_.push_back(token.draw);
+          jobs_.push_back({.draw = token.draw, .triangle = token.triangle, .job = job, .work = work});
+        });
+  }
+
+  void job() {
+    JobToken expected = take(jobs_);
+    run_.meter.give_back(Link::kTileWalker, run_.cycle + 1);
+    run_.meter.take(Link::kEdgeEvaluator, expected.draw, run_.cycle);
+    run_.note(&PacketTimes::e);
+    job_check_.compare(run_.cycle, expected.job, run_.pipeline.tile_job());
+    coverages_.push_back(
+        {.draw = expected.draw,
+         .triangle = std::move(expected.triangle),
+         .coverage = passage::edge_evaluator<TileSize>(expected.job, expected.work, *expected.draw)});
+  }
+
+  void coverage() {
+    CoverageToken expected = take(coverages_);
+    run_.meter.give_back(Link::kEdgeEvaluator, run_.cycle + 1);
+    run_.note(&PacketTimes::g);
+    coverage_check_.compare(run_.cycle, expected.coverage, run_.pipeline.coverage());
+    if (!any(expected.coverage.mask)) {
+      return;
+    }
+    run_.meter.take(Link::kQuadGenerator, expected.draw, run_.cycle);
+    const Burst burst = passage::quad_generator<TileSize>(expected.coverage, *expected.draw);
+    for (const QuadBeat& beat : quad_beats<TileSize>(burst.packet, run_.widths)) {
+      beats_.push_back(beat);
+    }
+    bursts_.push_back({.draw = expected.draw, .triangle = std::move(expected.triangle), .burst = burst});
+  }
+
+  void beat() {
+    beat_check_.compare(run_.cycle, beats_.front(), run_.pipeline.quad_beat());
+    beats_.pop_front();
+    if (run_.happens(Event::kFirstBeat) && run_.expected(bursts_, "quad_generator (burst)")) {
+      run_.note(&PacketTimes::f);
+      look_up(take(bursts_));
+    }
+    if (run_.happens(Event::kLastBeat)) {
+      run_.meter.give_back(Link::kQuadGenerator, run_.cycle + 1);
+    }
+  }
+
+  /// The burst is in early_z: what will be tested, and which lines have to move.
+  void look_up(BurstToken token) {
+    DrawContext& draw = *token.draw;
+    const QuadBurst& burst = token.burst.packet;
+    const Coverage& coverage = burst.coverage;
+    memory_.look_up_for(&draw);
+    run_.meter.take(Link::kEarlyZPending, &draw, run_.cycle);
+    to_test_.push_back(&draw);
+    Surface* const surface = run_.surface(draw);
+    std::uint32_t* const stored =
+        surface == nullptr ? nullptr : surface->codes.tile(coverage.tile_x, coverage.tile_y);
+    TileCodes<TileSize> codes{};
+    // Not the passage: what the test counts is counted of what the RTL gives.
+    const TileMask passed = z_test<TileSize>(*token.triangle, burst, draw.early_z, stored, codes);
+    passage::complete_codes<TileSize>(*token.triangle, burst, draw.early_z, codes);
+    const int parts = run_.config.z_cache.parts;
+    if (const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, draw, parts)) {
+      const std::uint8_t written = passage::written_parts<TileSize>(passed, draw, parts);
+      const ZMisses misses =
+          passage::z_cache(z_cache_, run_.places[draw.surface], coverage, touched, written, draw);
+      for (const ZMiss& miss : misses.parts()) {
+        if (miss.fetch) {
+          memory_.expect_read(miss.line);
+        }
+        if (miss.write_back) {
+          memory_.expect_write(&draw, miss.victim);
+        }
+      }
+    }
+    sink_.expect(std::move(token), passed, codes);
+  }
+
+  void begin_test() {
+    tested_draw_ = to_test_.front();
+    to_test_.pop_front();
+    run_.meter.take(Link::kEarlyZ, tested_draw_, run_.cycle);
+    sink_.burst_under_way();
+    run_.note(&PacketTimes::b);
+  }
+
+  RunState& run_;
+  MemoryPort& memory_;
+  TestedSink<TileSize>& sink_;
+  WalkerConfig walker_config_;
+  passage::TileWalker walker_;
+  ZCache z_cache_;
+
+  PacketCheck<SetupTrianglePacket> triangle_check_;
+  PacketCheck<DepthEquationPacket> equation_check_;
+  PacketCheck<DrawStatePacket> state_check_;
+  PacketCheck<TileJob> job_check_;
+  PacketCheck<Coverage> coverage_check_;
+  PacketCheck<QuadBeat> beat_check_;
+
+  // What is expected on each link.
+  std::deque<TriangleToken> decisions_;
+  std::deque<ExpectedTriangle> triangles_;
+  std::deque<DrawContext*> to_emit_;
+  std::deque<JobToken> jobs_;
+  std::deque<CoverageToken> coverages_;
+  std::deque<QuadBeat> beats_;
+  std::deque<BurstToken> bursts_;
+  std::deque<DrawContext*> to_test_;
+  DrawContext* tested_draw_ = nullptr;
+};
+
+}  // namespace halfspace::rtl

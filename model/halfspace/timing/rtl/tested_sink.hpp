@@ -1,0 +1,136 @@
+/// What follows the verilated early_z: checks the beats that leave it, and keeps image, counts and quads as
+/// the RTL gives them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "halfspace/machine/passage/sink.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/tokens.hpp"
+#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/rtl/run_state.hpp"
+#include "halfspace/units/packing.hpp"
+#include "halfspace/units/quad_beats.hpp"
+#include "halfspace/units/quad_generator.hpp"
+
+namespace halfspace::rtl {
+
+template <int TileSize>
+class TestedSink {
+ public:
+  explicit TestedSink(RunState& run)
+      : run_(run), check_("early_z", run.widths, run.report), stalls_(run.options.stalls.any()) {}
+
+  /// The model's burst that comes next but for those before it, after its test.
+  void expect(BurstToken token, const TileMask& passed, const TileCodes<TileSize>& codes) {
+    for (const TestedBeat& beat : tested_beats<TileSize>(token.burst.packet, passed, codes, run_.widths)) {
+      beats_.push_back(beat);
+    }
+    bursts_.push_back(std::move(token));
+  }
+
+  /// The test of a burst begins in this cycle.
+  void burst_under_way() { visible_.push_back(run_.cycle + kTestLatency); }
+
+  /// Whether the sink takes a beat in this cycle. Only whole bursts are held back.
+  [[nodiscard]] bool ready() const {
+    if (!stalls_ || in_burst_) {
+      return true;
+    }
+    return !visible_.empty() &&
+           run_.cycle >= visible_.front() + run_.options.stalls.cycles(StallPoint::kSink, bursts_taken_);
+  }
+
+  void take() {
+    if (!run_.expected(beats_, "early_z") || !run_.expected(bursts_, "early_z (burst)")) {
+      return;
+    }
+    const std::span<const std::uint32_t> wires = run_.pipeline.tested_beat();
+    TestedBeat& beat = beats_.front();
+    if (!check_.compare(run_.cycle, beat, wires)) {
+      beat = unpack<TestedBeat>(wires, run_.widths);
+    }
+    if (!in_burst_) {
+      run_.note(&PacketTimes::y);
+      covered_ = passed_ = {};
+      beat_cycles_.clear();
+    }
+    beat_cycles_.push_back(run_.cycle);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(run_.widths.TestWidth) && beat.mask[i] != 0; ++i) {
+      add_quad(beat, i);
+    }
+    in_burst_ = beat.last == 0;
+    if (!in_burst_) {
+      end_burst(beat);
+    }
+    beats_.pop_front();
+  }
+
+  void expect_no_more() { run_.expect_no_more(beats_, "early_z"); }
+
+ private:
+  /// Quad i of a beat.
+  void add_quad(const TestedBeat& beat, std::size_t i) {
+    const int x = beat.index[i] % (TileSize / 2) * 2;
+    const int y = beat.index[i] / (TileSize / 2) * 2;
+    for (int sample = 0; sample < 4; ++sample) {
+      const int bit = (y + sample / 2) * TileSize + x + sample % 2;
+      const auto word = static_cast<std::size_t>(bit / 64);
+      covered_.word[word] |= std::uint64_t{beat.mask[i] >> sample & 1u} << (bit % 64);
+      passed_.word[word] |= std::uint64_t{beat.passed[i] >> sample & 1u} << (bit % 64);
+      codes_[static_cast<std::size_t>(bit)] = beat.depth[4 * i + static_cast<std::size_t>(sample)];
+    }
+  }
+
+  void end_burst(const TestedBeat& beat) {
+    const BurstToken token = std::move(bursts_.front());
+    bursts_.pop_front();
+    if (!visible_.empty()) {
+      visible_.pop_front();
+    }
+    ++bursts_taken_;
+    DrawContext& draw = *token.draw;
+    const std::uint32_t triangle = token.triangle->triangle;
+    run_.meter.give_back(Link::kEarlyZ, run_.cycle + 1);
+    run_.meter.burst_left(draw, run_.cycle);
+    passage::count_z_test(draw, popcount(covered_), popcount(passed_));
+    Surface* const surface = run_.surface(draw);
+    if (surface != nullptr &&
+        (beat.tile_x >= surface->codes.tiles_x() || beat.tile_y >= surface->codes.tiles_y())) {
+      return;  // its packet differs, and is reported
+    }
+    passage::sink<TileSize>(covered_, passed_, beat.tile_x, beat.tile_y, triangle, draw, surface);
+    if (draw.record_quads) {
+      const QuadBurst burst =
+          quad_generator<TileSize>({.tile_x = beat.tile_x, .tile_y = beat.tile_y, .mask = covered_});
+      const auto width = static_cast<std::size_t>(run_.widths.TestWidth);
+      passage::show_quads<TileSize>(
+          burst, passed_, codes_.data(), triangle, draw, [&](QuadEvent& quad, std::size_t number) {
+            quad.cycle = beat_cycles_[std::min(number / width, beat_cycles_.size() - 1)];
+            draw.observer->quad(quad);
+          });
+    }
+  }
+
+  RunState& run_;
+  PacketCheck<TestedBeat> check_;
+  bool stalls_;
+  std::deque<TestedBeat> beats_;       ///< expected
+  std::deque<BurstToken> bursts_;      ///< in early_z
+  std::deque<std::uint64_t> visible_;  ///< when each burst that is tested can be seen here
+  std::uint64_t bursts_taken_ = 0;
+
+  // Of the burst that comes.
+  bool in_burst_ = false;
+  TileMask covered_;
+  TileMask passed_;
+  TileCodes<TileSize> codes_{};
+  std::vector<std::uint64_t> beat_cycles_;
+};
+
+}  // namespace halfspace::rtl

@@ -1,0 +1,106 @@
+/// z_test, the second half of early_z: interpolates depth at the covered samples of a tile's quads, tests it
+/// against the surface and writes it; and what the lines of the z cache hold, which move here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "halfspace/numerics/depth.hpp"
+#include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/tile_mask.hpp"
+#include "halfspace/units/z_line.hpp"
+
+namespace halfspace {
+
+/// The state of a draw that early_z looks at.
+struct EarlyZState {
+  bool test = false;   ///< off: every fragment passes and nothing is written
+  bool write = false;  ///< passing fragments write; only with the test on
+  DepthFunc func = DepthFunc::kAlways;
+  DepthFormat format = DepthFormat::kNone;
+  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
+  int sub_pixel_bits = 8;
+};
+
+/// True where a burst has to do with stored depth.
+inline bool touches_depth(const EarlyZState& state) {
+  return state.test && state.func != DepthFunc::kNever && (state.write || state.func != DepthFunc::kAlways);
+}
+
+/// Depth codes of a tile in row order; those of samples that are not covered mean nothing.
+template <int TileSize>
+using TileCodes = std::array<std::uint32_t, TileSize * TileSize>;
+
+/// Codes at the covered samples of the burst.
+template <int TileSize>
+void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
+                      TileCodes<TileSize>& codes);
+
+/// Tests the burst against `stored`, the tile's codes in the surface (TileSize^2, row order), writes those
+/// that pass where the state says so, and returns the mask of the samples that passed. Fills `codes` when the
+/// test is on.
+template <int TileSize>
+TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
+                std::uint32_t* stored, TileCodes<TileSize>& codes);
+
+/// What the lines of the cache hold, as the test keeps it, and the state of the lines of memory.
+class ZLines {
+ public:
+  struct Victim {
+    std::uint32_t line = kNoZLine;  ///< of memory; none where the slot was free
+    std::uint32_t bytes = 0;
+    bool dirty = false;
+  };
+
+  ZLines() = default;
+  /// `memory_lines`: of all surfaces.
+  ZLines(const ZCacheShape& shape, std::uint32_t memory_lines)
+      : slots_(static_cast<std::size_t>(shape.lines)), cleared_(memory_lines) {}
+
+  /// The line of memory is only marked cleared, so there is nothing to fetch.
+  [[nodiscard]] bool cleared(std::uint32_t line) const { return cleared_[line]; }
+
+  /// Puts a line into a slot. A dirty victim is written back by the caller; it is then stored.
+  Victim replace(std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
+    const Victim victim = slots_[slot];
+    if (victim.dirty) {
+      cleared_[victim.line] = false;
+    }
+    slots_[slot] = {.line = line, .bytes = bytes, .dirty = false};
+    return victim;
+  }
+
+  void mark_written(std::uint32_t slot) { slots_[slot].dirty = true; }
+
+  /// Marks the lines `first` to `last` of memory cleared, and drops them from the cache, dirty or not.
+  void clear(std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t line = first; line <= last; ++line) {
+      cleared_[line] = true;
+    }
+    for (Victim& slot : slots_) {
+      if (slot.line >= first && slot.line <= last) {
+        slot = {};
+      }
+    }
+  }
+
+  /// Writes back what is dirty: calls visit(slot, line, bytes) for it, in order of slots.
+  template <class Visit>
+  void flush(Visit&& visit) {
+    for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
+      if (slots_[slot].dirty) {
+        visit(slot, slots_[slot].line, slots_[slot].bytes);
+        cleared_[slots_[slot].line] = false;
+        slots_[slot].dirty = false;
+      }
+    }
+  }
+
+ private:
+  std::vector<Victim> slots_;
+  std::vector<bool> cleared_;
+};
+
+}  // namespace halfspace
