@@ -46,7 +46,7 @@ void check_lists_everything(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
+TEST_CASE("fewer fill buffers than parts of a tile: deadlock", "[timing]") {
   Config config;
   config.z_parts = 2;
   config.z_misses_in_flight = 1;
@@ -62,7 +62,7 @@ TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
   CHECK_THAT(text, Catch::Contains("fill buffers: 1 of 1 in use, the head may be taken from cycle"));
 }
 
-TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
+TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock", "[timing]") {
   Config config;
   config.z_parts = 4;
   config.z_lines = 16;
@@ -76,7 +76,7 @@ TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
   CHECK_THAT(text, Catch::Contains("write buffer: 0 of 2 in use, empty"));
 }
 
-TEST_CASE("after a deadlock the next run works") {
+TEST_CASE("after a deadlock the next run works", "[timing]") {
   Config config;
   config.z_parts = 2;
   config.z_misses_in_flight = 1;
