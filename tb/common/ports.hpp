@@ -24,6 +24,12 @@ void set_port(Port& port, std::span<const std::uint32_t> words) {
   port = static_cast<Port>(value);
 }
 
+/// The port itself, without a copy.
+template <std::size_t N>
+std::span<const std::uint32_t> words_of(const VlWide<N>& port) {
+  return {&port[0], N};
+}
+
 template <std::size_t N>
 void get_port(const VlWide<N>& port, std::vector<std::uint32_t>& words) {
   words.assign(&port[0], &port[0] + N);

@@ -8,7 +8,8 @@
 
 namespace halfspace::tb {
 
-/// Pins are sampled between settle() and clock_edge(); words are packed as model/halfspace/units/packing.hpp does.
+/// Pins are sampled between settle() and clock_edge(); words are packed as model/halfspace/units/packing.hpp
+/// does.
 class StreamDut {
  public:
   StreamDut() = default;

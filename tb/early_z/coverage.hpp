@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "early_z/dut.hpp"
+#include "early_z/models.hpp"
 #include "early_z/workload.hpp"
 
 namespace halfspace::tb {

@@ -1,5 +1,5 @@
-/// Bench of depth_interpolator, one quad wide: the RTL against model/halfspace/units/depth_interpolator.hpp, sample by
-/// sample, a quad a cycle.
+/// Bench of depth_interpolator, one quad wide: the RTL against model/halfspace/units/depth_interpolator.hpp,
+/// sample by sample, a quad a cycle.
 #include <fmt/format.h>
 #include <verilated.h>
 

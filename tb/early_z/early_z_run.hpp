@@ -8,7 +8,7 @@
 #include "common/failure.hpp"
 #include "common/staller.hpp"
 #include "early_z/coverage.hpp"
-#include "early_z/dut.hpp"
+#include "early_z/models.hpp"
 #include "early_z/workload.hpp"
 
 namespace halfspace::tb {

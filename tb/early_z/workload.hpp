@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "early_z/dut.hpp"
+#include "early_z/models.hpp"
 #include "early_z/triangles.hpp"
 #include "halfspace/units/z_cache.hpp"
 

@@ -1,5 +1,10 @@
-/// Names of edge_evaluator's pins.
+/// Names of edge_evaluator's pins, and what the verilated classes make of them.
 #pragma once
+
+#include <string>
+
+#include "common/verilated_dut.hpp"
+#include "models.hpp"
 
 namespace halfspace::tb {
 
@@ -11,5 +16,10 @@ struct EdgeEvaluatorPins {
   static auto& output_payload(auto& model) { return model.coverage_o; }
   static auto& output_ready(auto& model) { return model.coverage_ready_i; }
 };
+
+template <class Model>
+DutModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int pipe_stages) {
+  return {name, tile_size, sub_pixel_bits, pipe_stages, make_dut<Model, EdgeEvaluatorPins>};
+}
 
 }  // namespace halfspace::tb

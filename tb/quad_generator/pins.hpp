@@ -1,5 +1,10 @@
-/// Names of quad_generator's pins.
+/// Names of quad_generator's pins, and what the verilated classes make of them.
 #pragma once
+
+#include <string>
+
+#include "common/verilated_dut.hpp"
+#include "models.hpp"
 
 namespace halfspace::tb {
 
@@ -11,5 +16,14 @@ struct QuadGeneratorPins {
   static auto& output_payload(auto& model) { return model.beat_o; }
   static auto& output_ready(auto& model) { return model.beat_ready_i; }
 };
+
+template <class Model>
+QuadGeneratorModel verilated(const std::string& name, int tile_size, int quad_width, int z_parts,
+                             int fifo_depth, int sub_pixel_bits) {
+  return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, QuadGeneratorPins>},
+          quad_width,
+          z_parts,
+          fifo_depth};
+}
 
 }  // namespace halfspace::tb

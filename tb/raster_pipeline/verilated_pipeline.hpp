@@ -1,12 +1,13 @@
 /// rtl::VerilatedPipeline from a verilated class.
 #pragma once
 
-#include <verilated.h>
-#include <verilated_fst_c.h>
-
-#include <memory>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
 
 #include "common/ports.hpp"
+#include "common/verilated_model.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/rtl/verilated_pipeline.hpp"
 
@@ -16,24 +17,9 @@ namespace halfspace::tb {
 template <class Model, bool kTraced>
 class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
  public:
-  explicit VerilatedRasterPipeline(std::uint64_t seed) {
-    context_.randReset(2);
-    context_.randSeed(static_cast<int>(seed & 0x7fffffff) | 1);
-    context_.fatalOnError(false);
-    context_.traceEverOn(kTraced);
-    model_ = std::make_unique<Model>(&context_);
+  explicit VerilatedRasterPipeline(std::uint64_t seed) : model_(seed) {
     model_->read_ready_i = 1;
     model_->write_ready_i = 1;
-    model_->clk_i = 0;
-    model_->eval();
-  }
-  ~VerilatedRasterPipeline() override {
-    // Verilator 5.006 takes the context of its destructors from the thread.
-    Verilated::threadContextp(&context_);
-    if (trace_) {
-      trace_->close();
-    }
-    model_->final();
   }
 
   void settle(const rtl::PipelineInputs& in, rtl::PipelineOutputs& out) override {
@@ -54,9 +40,7 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
     set_number(m.clear_last_i, in.clear_last);
     m.flush_i = in.flush;
     set_number(m.counter_select_i, in.counter_select);
-    m.clk_i = 0;
-    m.eval();
-    dump();
+    model_.settle();
     out.triangle_ready = m.triangle_ready_o != 0;
     out.beat_valid = m.beat_valid_o != 0;
     out.read_valid = m.read_valid_o != 0;
@@ -71,41 +55,37 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
     out.events = m.rootp->raster_pipeline__DOT__u_probe__DOT__events;
     out.counter = m.counter_o;
   }
-  void clock_edge() override {
-    model_->clk_i = 1;
-    model_->eval();
-    dump();
-  }
+  void clock_edge() override { model_.clock_edge(); }
   [[nodiscard]] bool clear_done() const override { return model_->clear_done_o != 0; }
   [[nodiscard]] bool flush_done() const override { return model_->flush_done_o != 0; }
 
   [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__triangle);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__triangle);
   }
   [[nodiscard]] std::span<const std::uint32_t> depth_equation() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__equation);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__equation);
   }
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__state);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__state);
   }
   [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__tile_job);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__tile_job);
   }
   [[nodiscard]] std::span<const std::uint32_t> coverage() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__coverage);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__coverage);
   }
   [[nodiscard]] std::span<const std::uint32_t> quad_beat() const override {
-    return words(model_->rootp->raster_pipeline__DOT__u_probe__DOT__quad_beat);
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__quad_beat);
   }
-  [[nodiscard]] std::span<const std::uint32_t> tested_beat() const override { return words(model_->beat_o); }
+  [[nodiscard]] std::span<const std::uint32_t> tested_beat() const override {
+    return words_of(model_->beat_o);
+  }
   void write_data(std::vector<std::uint32_t>& data) const override { get_port(model_->write_data_o, data); }
 
-  [[nodiscard]] bool assertion_failed() const override { return context_.gotError(); }
+  [[nodiscard]] bool assertion_failed() const override { return model_.assertion_failed(); }
   void trace_to(const std::filesystem::path& file) override {
     if constexpr (kTraced) {
-      trace_ = std::make_unique<VerilatedFstC>();
-      model_->trace(trace_.get(), 99);
-      trace_->open(file.c_str());
+      model_.trace_to(file.string());
     } else {
       throw InputError(file.string() +
                        ": this pipeline was verilated without waveforms; one with checks has them");
@@ -113,28 +93,12 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
   }
 
  private:
-  template <std::size_t N>
-  static std::span<const std::uint32_t> words(const VlWide<N>& port) {
-    return {&port[0], N};
-  }
-
   template <class Port>
   static void set_number(Port& port, std::uint32_t value) {
     port = static_cast<Port>(value);
   }
 
-  void dump() {
-    if constexpr (kTraced) {
-      context_.timeInc(1);
-      if (trace_) {
-        trace_->dump(context_.time());
-      }
-    }
-  }
-
-  VerilatedContext context_;
-  std::unique_ptr<Model> model_;
-  std::unique_ptr<VerilatedFstC> trace_;
+  VerilatedModel<Model, kTraced> model_;
 };
 
 }  // namespace halfspace::tb

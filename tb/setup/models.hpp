@@ -26,9 +26,6 @@ struct SetupModel {
   }
 };
 
-[[nodiscard]] const std::vector<SetupModel>& setup_models();
-
-/// The model of that name, which must exist.
-[[nodiscard]] const SetupModel& setup_model(const std::string& name);
+[[nodiscard]] std::vector<SetupModel> setup_models();
 
 }  // namespace halfspace::tb

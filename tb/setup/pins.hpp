@@ -1,5 +1,10 @@
-/// Names of setup's pins.
+/// Names of setup's pins, and what the verilated classes make of them.
 #pragma once
+
+#include <string>
+
+#include "common/verilated_dut.hpp"
+#include "models.hpp"
 
 namespace halfspace::tb {
 
@@ -11,5 +16,16 @@ struct SetupPins {
   static auto& output_payload(auto& model) { return model.packet_o; }
   static auto& output_ready(auto& model) { return model.triangle_ready_i; }
 };
+
+template <class Model>
+SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int queue, int fifo,
+                     int interval, int block_size, bool block_level) {
+  return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
+          queue,
+          fifo,
+          interval,
+          block_size,
+          block_level};
+}
 
 }  // namespace halfspace::tb

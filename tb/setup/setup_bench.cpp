@@ -1,6 +1,7 @@
 /// Bench of setup: the RTL against model/halfspace/units/setup.hpp.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -31,8 +32,13 @@ struct Seen {
   bool enough = true;
 };
 
+const SetupModel& model_of(const DutModel& dut) {
+  static const std::vector<SetupModel> models = setup_models();
+  return *std::ranges::find(models, dut.name, [](const SetupModel& model) { return model.dut.name; });
+}
+
 UnitShape shape(const DutModel& dut, Seen& seen) {
-  const SetupModel& model = setup_model(dut.name);
+  const SetupModel& model = model_of(dut);
   SetupCoverage& coverage = seen.coverage.try_emplace(dut.name, model).first->second;
   return {.input_words = input_words(model.widths()),
           .output_fields = output_fields(model.widths()),
@@ -71,7 +77,7 @@ std::vector<BenchRun> timing_runs(const SetupModel& model, const BenchOptions& b
 
 std::vector<BenchRun> runs(const DutModel& dut, const std::string& test_case, const CommandLine& command_line,
                            const BenchOptions& base, Seen& seen) {
-  const SetupModel& model = setup_model(dut.name);
+  const SetupModel& model = model_of(dut);
   seen.cases.insert(test_case);
   seen.enough = seen.enough && command_line.tiles >= kCoverageTriangles && !command_line.idle &&
                 !command_line.stall && command_line.check == "all";

@@ -1,12 +1,14 @@
-/// Names of tile_walker's pins.
+/// Names of tile_walker's pins, and what the verilated classes make of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/verilated_dut.hpp"
+#include "models.hpp"
 
 namespace halfspace::tb {
 
@@ -15,8 +17,8 @@ struct TileWalkerPins {
   /// Triangle, equation and state, each in whole words.
   static void set_input_payload(auto& model, std::span<const std::uint32_t> payload) {
     const auto take = [&](auto& port) {
-      to_port(payload, port);
-      payload = payload.subspan(from_port(port).size());
+      set_port(port, payload);
+      payload = payload.subspan(words_of(port).size());
     };
     take(model.triangle_i);
     take(model.equation_i);
@@ -31,12 +33,19 @@ struct TileWalkerPins {
     words.push_back(model.slot_write_o);
     words.push_back(model.slot_o);
     const auto add = [&](const auto& port) {
-      const std::span<const std::uint32_t> bits = from_port(port);
+      const std::span<const std::uint32_t> bits = words_of(port);
       words.insert(words.end(), bits.begin(), bits.end());
     };
     add(model.slot_equation_o);
     add(model.slot_state_o);
   }
 };
+
+template <class Model>
+TileWalkerModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int fifo_depth,
+                          int block_size, bool block_level, bool reject, bool accept, int interval) {
+  return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, TileWalkerPins>},
+          {tile_size, sub_pixel_bits, fifo_depth, block_size, block_level, reject, accept, interval}};
+}
 
 }  // namespace halfspace::tb

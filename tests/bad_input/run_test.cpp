@@ -14,7 +14,7 @@ TEST_CASE("a scissor may lie anywhere and have any size") {
   constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
   for (const std::int32_t at : {kLeast, -1, 0, kMost}) {
     for (const std::int32_t extent : {0, 1, kMost}) {
-      Frame frame = read_ptf(HALFSPACE_SCENES_DIR "/vkcube.ptf.xz");
+      Frame frame = read_ptf(HALFSPACE_SCENES "/vkcube.ptf.xz");
       for (Command& command : frame.commands) {
         command.scissor = {at, at, extent, extent};
       }
@@ -26,7 +26,7 @@ TEST_CASE("a scissor may lie anywhere and have any size") {
 }
 
 TEST_CASE("any byte of a frame may change: it is refused, or it runs and every fragment is accounted for") {
-  std::vector<std::byte> bytes = read_bytes(HALFSPACE_SCENES_DIR "/vkcube.ptf.xz");
+  std::vector<std::byte> bytes = read_bytes(HALFSPACE_SCENES "/vkcube.ptf.xz");
   int refused = 0;
   int ran = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {

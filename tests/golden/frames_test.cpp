@@ -172,36 +172,36 @@ void check_depth(const std::string& name) {
 }  // namespace
 
 // A frame that is not there skips its own case only.
-TEST_CASE("vkcube") {
+TEST_CASE("vkcube", "[golden]") {
   check_counts("vkcube");
   check_depth("vkcube");
 }
 
-TEST_CASE("cc0_truck") {
+TEST_CASE("cc0_truck", "[golden]") {
   check_counts("cc0_truck");  // made from a model, so there is no driver's depth
 }
 
-TEST_CASE("glmark2_ideas") {
+TEST_CASE("glmark2_ideas", "[golden]") {
   check_counts("glmark2_ideas");
   check_depth("glmark2_ideas");
 }
 
-TEST_CASE("glmark2_shadow") {
+TEST_CASE("glmark2_shadow", "[golden]") {
   check_counts("glmark2_shadow");
   check_depth("glmark2_shadow");
 }
 
-TEST_CASE("stk_snowmountain") {
+TEST_CASE("stk_snowmountain", "[golden]") {
   check_counts("stk_snowmountain");
   check_depth("stk_snowmountain");
 }
 
-TEST_CASE("openarena_gl2") {
+TEST_CASE("openarena_gl2", "[golden]") {
   check_counts("openarena_gl2");
   check_depth("openarena_gl2");
 }
 
-TEST_CASE("warzone2100_vulkan") {
+TEST_CASE("warzone2100_vulkan", "[golden]") {
   check_counts("warzone2100_vulkan");
   check_depth("warzone2100_vulkan");
 }

@@ -37,7 +37,7 @@ TEST_CASE("load takes frames and meshes by extension") {
 }
 
 TEST_CASE("the shipped frame of vkcube") {
-  const Frame frame = load(std::filesystem::path(HALFSPACE_SCENES_DIR) / "vkcube.ptf.xz");
+  const Frame frame = load(std::filesystem::path(HALFSPACE_SCENES) / "vkcube.ptf.xz");
   CHECK(frame.name == "vkcube");
   REQUIRE(frame.targets.size() == 1);
   CHECK(frame.targets[0].width == 500);
@@ -52,7 +52,7 @@ TEST_CASE("the shipped frame of vkcube") {
 }
 
 TEST_CASE("the shipped frame of the truck") {
-  const Frame frame = load(std::filesystem::path(HALFSPACE_SCENES_DIR) / "cc0_truck.ptf.xz");
+  const Frame frame = load(std::filesystem::path(HALFSPACE_SCENES) / "cc0_truck.ptf.xz");
   REQUIRE(frame.targets.size() == 1);
   CHECK(frame.targets[0].width == 1920);
   CHECK(frame.targets[0].height == 1080);

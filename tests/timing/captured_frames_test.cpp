@@ -87,10 +87,16 @@ void check_frame(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("every packet's cycle: vkcube", "[captured]") { check_frame("vkcube"); }
-TEST_CASE("every packet's cycle: cc0_truck", "[captured]") { check_frame("cc0_truck"); }
-TEST_CASE("every packet's cycle: glmark2_ideas", "[captured]") { check_frame("glmark2_ideas"); }
-TEST_CASE("every packet's cycle: glmark2_shadow", "[captured]") { check_frame("glmark2_shadow"); }
-TEST_CASE("every packet's cycle: openarena_gl2", "[captured]") { check_frame("openarena_gl2"); }
-TEST_CASE("every packet's cycle: stk_snowmountain", "[captured]") { check_frame("stk_snowmountain"); }
-TEST_CASE("every packet's cycle: warzone2100_vulkan", "[captured]") { check_frame("warzone2100_vulkan"); }
+TEST_CASE("every packet's cycle: vkcube", "[timing][captured]") { check_frame("vkcube"); }
+TEST_CASE("every packet's cycle: cc0_truck", "[timing][captured][slow]") { check_frame("cc0_truck"); }
+TEST_CASE("every packet's cycle: glmark2_ideas", "[timing][captured][slow]") { check_frame("glmark2_ideas"); }
+TEST_CASE("every packet's cycle: glmark2_shadow", "[timing][captured][slow]") {
+  check_frame("glmark2_shadow");
+}
+TEST_CASE("every packet's cycle: openarena_gl2", "[timing][captured][slow]") { check_frame("openarena_gl2"); }
+TEST_CASE("every packet's cycle: stk_snowmountain", "[timing][captured][slow]") {
+  check_frame("stk_snowmountain");
+}
+TEST_CASE("every packet's cycle: warzone2100_vulkan", "[timing][captured][slow]") {
+  check_frame("warzone2100_vulkan");
+}

@@ -45,7 +45,7 @@ void check_lists_everything(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
+TEST_CASE("fewer fill buffers than parts of a tile: deadlock", "[timing]") {
   Config config;
   config.z_cache.parts = 2;
   config.z_cache.misses_in_flight = 1;
@@ -61,7 +61,7 @@ TEST_CASE("fewer fill buffers than parts of a tile: deadlock") {
   CHECK_THAT(text, Catch::Contains("link fill_buffers: 1 of 1 in use, the head may be taken from cycle"));
 }
 
-TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
+TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock", "[timing]") {
   Config config;
   config.z_cache.parts = 4;
   config.z_cache.lines = 16;
@@ -75,7 +75,7 @@ TEST_CASE("a write buffer that cannot take all parts of a tile: deadlock") {
   CHECK_THAT(text, Catch::Contains("link write_buffers: 0 of 2 in use, empty"));
 }
 
-TEST_CASE("after a deadlock the next run works") {
+TEST_CASE("after a deadlock the next run works", "[timing]") {
   Config config;
   config.z_cache.parts = 2;
   config.z_cache.misses_in_flight = 1;

@@ -47,12 +47,12 @@ std::uint64_t cases() {
 
 }  // namespace
 
-TEST_CASE("systemc equals recurrence on vkcube") {
+TEST_CASE("systemc equals recurrence on vkcube", "[timing]") {
   const Frame frame = read_ptf(HALFSPACE_SCENES "/vkcube.ptf.xz");
   CHECK(compare(frame, {}, {}) == "");
 }
 
-TEST_CASE("systemc equals recurrence on random machines") {
+TEST_CASE("systemc equals recurrence on random machines", "[timing]") {
   const std::uint64_t first = seed();
   std::cout << "seed " << first << ", " << cases() << " cases\n";
   for (std::uint64_t n = 0; n < cases(); ++n) {

@@ -116,7 +116,7 @@ void check_same_image(const FrameResult& ours, const FrameResult& theirs) {
 
 }  // namespace
 
-TEST_CASE("a host draws a frame by commands, and the image is in its memory") {
+TEST_CASE("a host draws a frame by commands, and the image is in its memory", "[timing]") {
   const Frame frame = small_frame();
   Config config;
   config.z_cache.lines = 8;
@@ -157,7 +157,7 @@ TEST_CASE("a host draws a frame by commands, and the image is in its memory") {
   }
 }
 
-TEST_CASE("a pipeline draws frame after frame in one simulation, each from cycle 0") {
+TEST_CASE("a pipeline draws frame after frame in one simulation, each from cycle 0", "[timing]") {
   const Frame frame = small_frame();
   Platform* machine = nullptr;
   std::vector<TimedResult> results;
@@ -177,7 +177,7 @@ TEST_CASE("a pipeline draws frame after frame in one simulation, each from cycle
   check_same_image(results.at(2).frame, run_functional(frame, {}));
 }
 
-TEST_CASE("the command port answers what it cannot do with the error of TLM-2.0") {
+TEST_CASE("the command port answers what it cannot do with the error of TLM-2.0", "[timing]") {
   const Frame frame = small_frame();
   const auto first = [](tlm::tlm_command command, std::uint64_t address, unsigned length) {
     return [=](Host& host) { return host.access(command, address, length); };
@@ -209,7 +209,7 @@ TEST_CASE("the command port answers what it cannot do with the error of TLM-2.0"
   platform.run();
 }
 
-TEST_CASE("commands without a frame are refused") {
+TEST_CASE("commands without a frame are refused", "[timing]") {
   Platform platform({}, 0, 64, [&](Host& host) {
     CHECK(host.write(registers::kSubmitFrame, 0) == tlm::TLM_GENERIC_ERROR_RESPONSE);
     CHECK(host.write(registers::kWaitIdle, 0) == tlm::TLM_GENERIC_ERROR_RESPONSE);
@@ -217,7 +217,7 @@ TEST_CASE("commands without a frame are refused") {
   platform.run();
 }
 
-TEST_CASE("a memory that is too small is an error, not a crash") {
+TEST_CASE("a memory that is too small is an error, not a crash", "[timing]") {
   const Frame frame = small_frame();
   Platform platform({}, 0, 64, [&](Host& host) {
     host.write(registers::kSubmitFrame, 0);
@@ -228,7 +228,7 @@ TEST_CASE("a memory that is too small is an error, not a crash") {
   CHECK_THROWS_WITH(platform.pipeline.check(), Catch::Contains("memory: no line at address 0"));
 }
 
-TEST_CASE("the memory answers in order, each channel at its own width") {
+TEST_CASE("the memory answers in order, each channel at its own width", "[timing]") {
   Config config;
   config.memory.latency = 10;
   config.memory.read_bytes = 4;

@@ -54,7 +54,7 @@ std::map<std::string, std::map<std::uint64_t, std::uint64_t>> read_vcd(const std
 
 }  // namespace
 
-TEST_CASE("a waveform has every change of every link and every busy cycle of every stage") {
+TEST_CASE("a waveform has every change of every link and every busy cycle of every stage", "[timing]") {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("halfspace_trace_" + std::to_string(getpid()) + ".vcd");
   for (std::uint64_t n = 0; n < 20; ++n) {

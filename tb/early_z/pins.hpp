@@ -1,38 +1,20 @@
 /// EarlyZDut from a verilated class.
 #pragma once
 
-#include <verilated.h>
-#include <verilated_cov.h>
-#include <verilated_fst_c.h>
-
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "common/ports.hpp"
-#include "early_z/dut.hpp"
+#include "common/verilated_model.hpp"
+#include "early_z/models.hpp"
 
 namespace halfspace::tb {
 
 template <class Model>
 class VerilatedEarlyZ final : public EarlyZDut {
  public:
-  explicit VerilatedEarlyZ(std::uint64_t seed) {
-    context_.randReset(2);
-    context_.randSeed(static_cast<int>(seed & 0x7fffffff) | 1);
-    context_.fatalOnError(false);
-    context_.traceEverOn(true);
-    model_ = std::make_unique<Model>(&context_);
-    model_->clk_i = 0;
-    model_->eval();
-  }
-  ~VerilatedEarlyZ() override {
-    Verilated::threadContextp(
-        &context_);  // Verilator 5.006 takes the context of its destructors from the thread
-    if (trace_) {
-      trace_->close();
-    }
-    model_->final();
-  }
+  explicit VerilatedEarlyZ(std::uint64_t seed) : model_(seed) {}
 
   void settle(const EarlyZInputs& in, EarlyZOutputs& out) override {
     Model& m = *model_;
@@ -52,9 +34,7 @@ class VerilatedEarlyZ final : public EarlyZDut {
     m.clear_first_i = static_cast<std::uint16_t>(in.clear_first);
     m.clear_last_i = static_cast<std::uint16_t>(in.clear_last);
     m.flush_i = in.flush;
-    m.clk_i = 0;
-    m.eval();
-    dump();
+    model_.settle();
     out.beat_ready = m.beat_ready_o != 0;
     out.beat_valid = m.beat_valid_o != 0;
     get_port(m.beat_o, out.beat);
@@ -70,30 +50,39 @@ class VerilatedEarlyZ final : public EarlyZDut {
     out.clear_done = m.clear_done_o != 0;
     out.flush_done = m.flush_done_o != 0;
   }
-  void clock_edge() override {
-    model_->clk_i = 1;
-    model_->eval();
-    dump();
-  }
-  [[nodiscard]] bool assertion_failed() const override { return context_.gotError(); }
-  void trace_to(const std::string& file) override {
-    trace_ = std::make_unique<VerilatedFstC>();
-    model_->trace(trace_.get(), 99);
-    trace_->open(file.c_str());
-  }
-  void write_coverage(const std::string& file) override { context_.coveragep()->write(file.c_str()); }
+  void clock_edge() override { model_.clock_edge(); }
+  [[nodiscard]] bool assertion_failed() const override { return model_.assertion_failed(); }
+  void trace_to(const std::string& file) override { model_.trace_to(file); }
+  void write_coverage(const std::string& file) override { model_.write_coverage(file); }
 
  private:
-  void dump() {
-    context_.timeInc(1);
-    if (trace_) {
-      trace_->dump(context_.time());
-    }
-  }
-
-  VerilatedContext context_;
-  std::unique_ptr<Model> model_;
-  std::unique_ptr<VerilatedFstC> trace_;
+  VerilatedModel<Model> model_;
 };
+
+/// The numbers as tb/early_z/CMakeLists.txt lists them.
+template <class Model>
+EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
+                      int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
+                      int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles) {
+  return {name,
+          {{.SubPixelBits = sub_pixel_bits,
+            .TileSize = tile_size,
+            .QuadWidth = quad_width,
+            .TestWidth = test_width,
+            .ZParts = z_parts},
+           pending,
+           fifo,
+           lines,
+           ways,
+           misses,
+           write_buffers,
+           read_bytes,
+           write_bytes,
+           clear_tiles,
+           memory_tiles},
+          [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
+            return std::make_unique<VerilatedEarlyZ<Model>>(seed);
+          }};
+}
 
 }  // namespace halfspace::tb
