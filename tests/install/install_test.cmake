@@ -1,5 +1,5 @@
 # Installs BUILD into a folder of its own, configures and builds CONSUMER against it, and runs it on SCENE; the same with
-# C_CONSUMER, which uses the C API.
+# SYSTEMC_CONSUMER, which has its own sc_main, and with C_CONSUMER, which uses the C API.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -19,6 +19,15 @@ if(NOT output STREQUAL "19263 quads\n")
 endif()
 run(${WORK}/prefix/bin/halfspace --version)
 
+file(REMOVE_RECURSE ${WORK}/systemc_consumer)
+run(${CMAKE_COMMAND} -S ${SYSTEMC_CONSUMER} -B ${WORK}/systemc_consumer -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_CXX_STANDARD=20)
+run(${CMAKE_COMMAND} --build ${WORK}/systemc_consumer)
+run(${WORK}/systemc_consumer/platform ${SCENE})
+if(NOT output MATCHES "\n5815 cycles\n$")
+  message(FATAL_ERROR "the platform printed: ${output}")
+endif()
+
 file(REMOVE_RECURSE ${WORK}/c_consumer)
 run(${CMAKE_COMMAND} -S ${C_CONSUMER} -B ${WORK}/c_consumer -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER})
@@ -30,3 +39,4 @@ foreach(library halfspace_c halfspace_c_static)
   endif()
 endforeach()
 run(${CMAKE_COMMAND} -E cat ${WORK}/prefix/share/halfspace/halfspace_dpi.sv)
+

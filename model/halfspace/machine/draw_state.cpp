@@ -86,7 +86,8 @@ bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& co
 DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config) {
   const std::uint32_t z = format == DepthFormat::kFloat32 ? code : code << vertex_depth_fraction(format);
   const auto vertex = [&](int x, int y) {
-    return ScreenVertex{.x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
+    return ScreenVertex{
+        .x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
   };
   const ScreenVertex top_left = vertex(rect.x_first, rect.y_first);
   const ScreenVertex top_right = vertex(rect.x_last + 1, rect.y_first);

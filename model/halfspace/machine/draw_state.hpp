@@ -6,11 +6,11 @@
 #include "halfspace/config/config.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/units/z_test.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
 #include "halfspace/units/z_line.hpp"
+#include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
 

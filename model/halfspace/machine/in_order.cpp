@@ -74,7 +74,7 @@ class InOrderRun {
       stream_.emplace(*reader, frame.name);
       wants_accesses_ = reader->wants_accesses();
       wants_tiles_ = reader->wants_tiles();
-      wants_cycles_ = observer_ != nullptr && observer_->wants_quads();
+      wants_cycles_ = reader->has_time() && observer_ != nullptr && observer_->wants_quads();
       reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
     }
   }
@@ -200,7 +200,7 @@ class InOrderRun {
   void show_quads(const Burst& burst, const TileMask& passed) {
     passage::show_quads<TileSize>(burst.packet, passed, codes_.data(), triangle_.triangle, *draw_,
                                   [this](const QuadEvent& quad, std::size_t number) {
-                                    if (stream_) {
+                                    if (wants_cycles_) {
                                       quads_.add(quad, number);
                                     } else {
                                       observer_->quad(quad);

@@ -10,7 +10,8 @@
 namespace halfspace {
 
 /// Runs `frame`, which must be valid (scene/validate.hpp), on the machine of `config`, which must be valid
-/// too. `reader` may be null. Quads are shown with the cycle that the reader gives their burst.
+/// too. `reader` may be null. Where it has time, quads are shown with the
+/// cycle that it gives their burst.
 FrameResult run_in_order(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader);
 
 }  // namespace halfspace

@@ -127,11 +127,13 @@ class StreamReader {
   virtual ~StreamReader() = default;
   [[nodiscard]] virtual bool wants_accesses() const { return false; }
   [[nodiscard]] virtual bool wants_tiles() const { return false; }
+  /// It knows in which cycle a burst leaves early_z.
+  [[nodiscard]] virtual bool has_time() const { return false; }
 
   /// Before the first part. `memory_lines`: lines of memory that all surfaces take.
   virtual void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) = 0;
-  /// The next part. Where `burst_cycles` is not null, appends for each of its bursts the cycle in which the
-  /// first beat leaves early_z; 0 where the reader has no time.
+  /// The next part. Where `burst_cycles` is not null, which it is only where the reader has time, appends for
+  /// each of its bursts the cycle in which the first beat leaves early_z.
   virtual void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) = 0;
   /// The end of the frame: the lines that the z cache writes back.
   virtual void end(std::span<const ZFlush> dirty) = 0;

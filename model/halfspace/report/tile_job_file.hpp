@@ -1,7 +1,8 @@
 /// A stream of tile jobs in a file: what `halfspace run` records and the edge_evaluator bench replays.
 ///
 /// Little-endian 32-bit words. Header: "HSTJ", version (1), tile size, sub-pixel bits, words of a record.
-/// Then one record after another: a TileJob as model/halfspace/units/packing.hpp packs it, bits above it zero.
+/// Then one record after another: a TileJob as model/halfspace/units/packing.hpp packs it, bits above it
+/// zero.
 #pragma once
 
 #include <cstdint>

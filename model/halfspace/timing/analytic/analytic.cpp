@@ -16,13 +16,8 @@ class WorkReader final : public StreamReader {
   void begin(std::span<const StreamSurface> surfaces, std::uint32_t /*memory_lines*/) override {
     surfaces_.assign(surfaces.begin(), surfaces.end());
   }
-  void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) override {
+  void read(const StreamView& part, std::vector<std::uint64_t>* /*burst_cycles*/) override {
     work_.add(part, surfaces_);
-    if (burst_cycles != nullptr) {
-      const auto bursts =
-          std::ranges::count_if(part.jobs, [](const StreamJob& job) { return job.quads() != 0; });
-      burst_cycles->insert(burst_cycles->end(), static_cast<std::size_t>(bursts), 0);
-    }
   }
   void end(std::span<const ZFlush> dirty) override { work_.flush.assign(dirty.begin(), dirty.end()); }
 

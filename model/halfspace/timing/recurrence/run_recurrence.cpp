@@ -19,6 +19,7 @@ class RecurrenceReader final : public StreamReader {
         core_(machine(config), make_credits(config), stalls, probe_) {}
 
   [[nodiscard]] bool wants_tiles() const override { return kObserved; }
+  [[nodiscard]] bool has_time() const override { return true; }
 
   void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) override {
     for (const StreamSurface& surface : surfaces) {
