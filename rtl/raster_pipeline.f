@@ -26,6 +26,7 @@ depth_interpolator.sv
 z_bank.sv
 z_clear_flags.sv
 z_lookup.sv
+z_write_buffer.sv
 z_test.sv
 z_control.sv
 early_z.sv

@@ -102,7 +102,7 @@ module z_test
   input  logic [ZParts-1:0] [Ways-1:0]           dropped_i,
 
   output logic                                   written_o,     // the write buffer is empty
-  output z_test_activity_e                      activity_o,
+  output z_test_activity_e                       activity_o,
   output logic                                   idle_o
 );
 
@@ -110,12 +110,8 @@ module z_test
   localparam int unsigned TestBeats = TileQuads / TestWidth;
   localparam int unsigned ReadFull = LineBytes > ReadBytes ? LineBytes / ReadBytes : 1;
   localparam int unsigned ReadHalf = LineBytes / 2 > ReadBytes ? LineBytes / 2 / ReadBytes : 1;
-  localparam int unsigned WriteFull = LineBytes > WriteBytes ? LineBytes / WriteBytes : 1;
-  localparam int unsigned WriteHalf = LineBytes / 2 > WriteBytes ? LineBytes / 2 / WriteBytes : 1;
   localparam int unsigned ReadCountBits = ReadFull > 1 ? $clog2(ReadFull) : 1;
-  localparam int unsigned WriteCountBits = WriteFull > 1 ? $clog2(WriteFull) : 1;
   localparam int unsigned FillPointerBits = MissesInFlight > 1 ? $clog2(MissesInFlight) : 1;
-  localparam int unsigned BufferPointerBits = WriteBuffers > 1 ? $clog2(WriteBuffers) : 1;
   localparam int unsigned BurstCountBits = $clog2(PendingDepth + 1);
   localparam int unsigned FillCountBits = $clog2(MissesInFlight + 1);
   localparam int unsigned BufferCountBits = $clog2(WriteBuffers + 1);
@@ -124,7 +120,6 @@ module z_test
   typedef logic [PartQuads-1:0] [3:0] [CodeBits-1:0] line_t;          // codes by quad
   typedef logic [8*LineBytes-1:0] packed_line_t;                      // as in memory
   typedef logic [FillPointerBits-1:0]   fill_pointer_t;
-  typedef logic [BufferPointerBits-1:0] buffer_pointer_t;
   typedef logic [BurstCountBits-1:0]    burst_count_t;
   typedef logic [FillCountBits-1:0]     fill_count_t;
   typedef logic [BufferCountBits-1:0]   buffer_count_t;
@@ -157,10 +152,6 @@ module z_test
   function automatic fill_pointer_t after_fill(fill_pointer_t pointer, int unsigned steps);
     automatic int unsigned sum = int'(pointer) + steps;
     return fill_pointer_t'(sum >= MissesInFlight ? sum - MissesInFlight : sum);
-  endfunction
-  function automatic buffer_pointer_t after_buffer(buffer_pointer_t pointer, int unsigned steps);
-    automatic int unsigned sum = int'(pointer) + steps;
-    return buffer_pointer_t'(sum >= WriteBuffers ? sum - WriteBuffers : sum);
   endfunction
 
   function automatic logic passes(logic [FuncBits-1:0] func, logic [CodeBits-1:0] code,
@@ -251,7 +242,7 @@ module z_test
   // When the first beat of a burst may be tested.
   burst_count_t  resolved_q;                  // bursts, not yet begun
   fill_count_t   filled_q, wanted_fills;      // fill buffers full; of this burst
-  buffer_count_t buffers_q, wanted_buffers;   // write buffers in use; of this burst
+  buffer_count_t buffers_left, wanted_buffers; // write buffers: free; for this burst
   fifo_count_t   fifo_free_q;                 // bursts for which the output FIFO has room
 
   always_comb begin
@@ -265,7 +256,7 @@ module z_test
 
   logic there, buffers_free, ready_to_begin;
   assign there          = resolved_q != '0 && filled_q >= wanted_fills;
-  assign buffers_free   = buffer_count_t'(WriteBuffers) - buffers_q >= wanted_buffers;
+  assign buffers_free   = buffers_left >= wanted_buffers;
   assign ready_to_begin = there && buffers_free && fifo_free_q != '0;
   assign activity_o     = !valid_q        ? ZTestNoBurst
                           : fire          ? ZTestBusy
@@ -276,7 +267,7 @@ module z_test
   assign burst_done_o   = fire & beat_q.last;
   assign fill_free_o    = swap ? fetched : '0;
 
-  logic fill_end, write_end, last_popped;
+  logic fill_end, last_popped;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -449,141 +440,49 @@ module z_test
       scan_dirty |= scan_part_i[p] & dirty_q[p][scan_line_i];
     end
   end
-  assign scan_done_o = ~scan_dirty | (buffers_q != buffer_count_t'(WriteBuffers));
+  assign scan_done_o = ~scan_dirty | (buffers_left != '0);
   assign push        = swap ? dirty_victim : scan_i && scan_dirty && scan_done_o ? scan_part_i : '0;
 
-  typedef struct packed {
-    logic [ZParts-1:0]   part;
-    logic [TileBits-1:0] tile;
-    logic                half;
-  } write_t;
+  logic [ZParts-1:0] [TileBits-1:0] old_tile;
+  logic [ZParts-1:0]                old_half;
+  logic                             leaving_buffer;
+  assign old_tile      = swap ? header.victim_tile : scan_tile_i;
+  assign old_half      = swap ? header.victim_half : scan_half_i;
+  assign stored_o      = push;
+  assign stored_tile_o = old_tile;
 
-  write_t          writes_q [WriteBuffers];
-  line_t           lines_q  [WriteBuffers];
-  buffer_pointer_t push_q, write_slot_q;
-  logic [WriteBuffers-1:0] in_use_q;
-  logic [WriteCountBits-1:0] write_beat_q;
-  buffer_count_t   pushed;
-  buffer_pointer_t push_slot [ZParts];
-  write_t          old       [ZParts];
-
-  always_comb begin
-    pushed = '0;
-    for (int unsigned p = 0; p < ZParts; p++) begin
-      push_slot[p] = after_buffer(push_q, int'(pushed));
-      pushed += buffer_count_t'(push[p]);
-      old[p] = '{
-        part: ZParts'(1) << p,
-        tile: swap ? header.victim_tile[p] : scan_tile_i[p],
-        half: swap ? header.victim_half[p] : scan_half_i[p]};
-      stored_o[p]      = push[p];
-      stored_tile_o[p] = old[p].tile;
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    for (int unsigned p = 0; p < ZParts; p++) begin
-      if (push[p]) begin
-        writes_q[push_slot[p]] <= old[p];
-        lines_q[push_slot[p]]  <= stored[p];
-      end
-    end
-  end
-
-  write_t writing;
-  assign writing       = writes_q[write_slot_q];
-  assign write_valid_o = buffers_q != '0;
-  assign write_half_o  = writing.half;
-  assign write_last_o  =
-      write_beat_q == WriteCountBits'((writing.half ? WriteHalf : WriteFull) - 1);
-  assign write_end     = write_valid_o & write_ready_i & write_last_o;
-
-  always_comb begin
-    write_line_o = LineBits'(writing.tile) * LineBits'(ZParts);
-    for (int unsigned p = 0; p < ZParts; p++) begin
-      if (writing.part[p]) begin
-        write_line_o |= LineBits'(p);
-      end
-    end
-  end
-
-  // Codes become memory's bytes as they leave, piece by piece: a piece is of one code in both formats.
-  localparam int unsigned PieceBits = WriteBits < 16 ? WriteBits : 16;
-  localparam int unsigned Pieces = WriteBits / PieceBits;    // of a beat
-  localparam int unsigned FullPieces = CodeBits / PieceBits; // of a code
-  localparam int unsigned HalfPieces = FullPieces / 2;
-  localparam int unsigned HalfLine = MaskBits / ZParts * HalfPieces;
-
-  function automatic int unsigned quad_of(int unsigned place);
-    return place / TileSize / 2 * (TileSize / 2) + place % TileSize / 2;
-  endfunction
-  function automatic int unsigned sample_of(int unsigned place);
-    return place / TileSize % 2 * 2 + place % 2;
-  endfunction
-
-  line_t written_line;
-  assign written_line = lines_q[write_slot_q];
-
-  always_comb begin
-    write_data_o = '0;
-    for (int unsigned beat = 0; beat < WriteFull; beat++) begin
-      if (write_valid_o && !writing.half && write_beat_q == WriteCountBits'(beat)) begin
-        for (int unsigned i = beat * Pieces; i < (beat + 1) * Pieces; i++) begin
-          write_data_o[i%Pieces*PieceBits+:PieceBits] =
-              written_line[quad_of(i/FullPieces)][sample_of(i/FullPieces)]
-                          [i%FullPieces*PieceBits+:PieceBits];
-        end
-      end
-    end
-    for (int unsigned beat = 0; beat < WriteHalf; beat++) begin
-      if (write_valid_o && writing.half && write_beat_q == WriteCountBits'(beat)) begin
-        for (int unsigned i = beat * Pieces; i < (beat + 1) * Pieces && i < HalfLine; i++) begin
-          write_data_o[i%Pieces*PieceBits+:PieceBits] =
-              written_line[quad_of(i/HalfPieces)][sample_of(i/HalfPieces)]
-                          [i%HalfPieces*PieceBits+:PieceBits];
-        end
-      end
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      buffers_q    <= '0;
-      push_q       <= '0;
-      write_slot_q <= '0;
-      write_beat_q <= '0;
-      in_use_q     <= '0;
-    end else begin
-      buffers_q <= buffers_q + pushed - buffer_count_t'(write_end);
-      push_q    <= after_buffer(push_q, int'(pushed));
-      if (write_valid_o && write_ready_i) begin
-        write_beat_q <= write_last_o ? '0 : write_beat_q + WriteCountBits'(1);
-      end
-      if (write_end) begin
-        write_slot_q           <= after_buffer(write_slot_q, 1);
-        in_use_q[write_slot_q] <= 1'b0;
-      end
-      for (int unsigned p = 0; p < ZParts; p++) begin
-        if (push[p]) begin
-          in_use_q[push_slot[p]] <= 1'b1;
-        end
-      end
-    end
-  end
+  z_write_buffer #(
+    .WriteBuffers (WriteBuffers),
+    .WriteBytes   (WriteBytes),
+    .MemoryTiles  (MemoryTiles)
+  ) u_write_buffer (
+    .clk_i          (clk_i),
+    .rst_ni         (rst_ni),
+    .push_i         (push),
+    .tile_i         (old_tile),
+    .half_i         (old_half),
+    .lines_i        (stored),
+    .free_o         (buffers_left),
+    .leaving_part_i (leaving_part_i),
+    .leaving_tile_i (leaving_tile_i),
+    .leaving_o      (leaving_buffer),
+    .write_valid_o  (write_valid_o),
+    .write_ready_i  (write_ready_i),
+    .write_line_o   (write_line_o),
+    .write_half_o   (write_half_o),
+    .write_last_o   (write_last_o),
+    .write_data_o   (write_data_o)
+  );
 
   // Lines on their way out: victims of bursts that are not tested, and what is not yet written.
   always_comb begin
-    leaving_o = 1'b0;
+    leaving_o = leaving_buffer;
     if (leaving_part_i != '0) begin
       for (int unsigned i = 0; i < PendingDepth; i++) begin
         for (int unsigned p = 0; p < ZParts; p++) begin
           leaving_o |= leaving_part_i[p] && leaving_q[i][p]
                        && headers_q[i].victim_tile[p] == leaving_tile_i;
         end
-      end
-      for (int unsigned i = 0; i < WriteBuffers; i++) begin
-        leaving_o |= in_use_q[i] && writes_q[i].part == leaving_part_i
-                     && writes_q[i].tile == leaving_tile_i;
       end
     end
   end
@@ -627,7 +526,7 @@ module z_test
   assign unused_fifo = reserve_ready ^ unused_empty;
 
   assign last_popped = beat_valid_o & beat_ready_i & beat_o.last;
-  assign written_o   = buffers_q == '0;
+  assign written_o   = buffers_left == buffer_count_t'(WriteBuffers);
   assign idle_o      = fifo_free_q == fifo_count_t'(FifoDepth) && written_o;
 
 endmodule

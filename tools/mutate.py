@@ -113,8 +113,8 @@ def write_page(page, unit, text):
     page.write_text(head + "".join(f"## {name}\n{units[name]}" for name in order))
 
 
-def main():
-    own = sys.argv[1:]
+def parse_command_line(own):
+    """The options, and the arguments of the bench behind --."""
     arguments = []
     if "--" in own:
         arguments = own[own.index("--") + 1 :]
@@ -135,80 +135,118 @@ def main():
     parser.add_argument("--list", action="store_true", help="list the mutants, run nothing")
     parser.epilog = "What follows -- are options of the bench."
     options = parser.parse_args(own)
+    names, default_arguments = DEFAULTS[options.unit]
+    options.model = options.model or names
+    return options, arguments or default_arguments
 
+
+class Failed(Exception):
+    """Nothing can be said of the mutants."""
+
+
+class Campaign:
+    """Runs mutants until enough are live, and counts what became of them."""
+
+    def __init__(self, options, bench, models, arguments, equivalents):
+        self.options = options
+        self.bench = bench
+        self.models = models
+        self.arguments = arguments
+        self.equivalents = equivalents
+        self.known = found_before(options.page, options.unit) if options.keep else {}
+        self.counts = Counter()
+        self.refused = Counter()
+        self.rows = []
+
+    def run(self, mutants):
+        sample = Sample(mutants, self.options.seed)
+        print("\n".join(HEAD))
+        while sample.left and (self.options.count == 0 or self.counts["live"] < self.options.count):
+            mutant = sample.draw()
+            start = time.monotonic()
+            row = row_of(mutant)
+            try:
+                found = self.known.get(row) or self.find(mutant)
+            except Stillborn as why:
+                self.refused[str(why)] += 1
+                print(f"{row} stillborn: {why} | {time.monotonic() - start:.0f}", flush=True)
+                continue
+            self.rows.append(f"{row} {self.judge(mutant, row, found) or SURVIVED} |")
+            sample.live(mutant)
+            print(f"{self.rows[-1]} {time.monotonic() - start:.0f}", flush=True)
+        self.counts["stillborn"] = sum(self.refused.values())
+
+    def find(self, mutant):
+        return find(self.bench, self.models, mutant, self.arguments, self.options.limit)
+
+    def judge(self, mutant, row, found):
+        """What the page says of a live mutant; None where it survived."""
+        self.counts["live"] += 1
+        reason = self.equivalents.reason(mutant)
+        if not reason:
+            self.counts["survived" if found is None else "killed"] += 1
+            return found
+        if found is not None and row not in self.known:
+            raise Failed(f"listed as equivalent, but found: {row} {found}")
+        self.counts["equivalent"] += 1
+        return f"equivalent: {reason}"
+
+    def summary(self, mutants):
+        """The unit's part of the page, by lines."""
+        keys = ("live", "killed", "equivalent", "survived", "stillborn")
+        numbers = ", ".join(f"{key} {self.counts[key]}" for key in keys)
+        why = ", ".join(f"{reason} {count}" for reason, count in self.refused.most_common())
+        options = self.options
+        command = f"tools/mutate.py {options.unit} --count {options.count} --seed {options.seed}"
+        command += "".join(f" --file {name}" for name in options.file or [])
+        models = ", ".join(model.name for model in self.models)
+        return [
+            "",
+            f"{numbers}, of {len(mutants)} mutants{f' ({why})' if why else ''}.",
+            "",
+            f"{date.today()}, `{command}`: models {models}, bench options `{show(self.arguments)}`.",
+            "",
+            *HEAD,
+            *self.rows,
+            "",
+            "",
+        ]
+
+
+def check_before(bench, models, arguments, limit, equivalents):
+    """What has to hold before a mutant says anything."""
+    stale = list(equivalents.stale())
+    if stale:
+        raise Failed("\n".join(["stale entries of the list of equivalent mutants:", *stale]))
+    for model in models:
+        wrong = find(bench, [model], None, arguments, limit)
+        if wrong:
+            raise Failed(f"the original fails: {wrong}")
+
+
+def main():
+    options, arguments = parse_command_line(sys.argv[1:])
     Sources.folder = options.rtl.resolve()
     build = options.build.resolve()
     bench = PipelineBench(build) if options.unit == "raster_pipeline" else UnitBench(options.unit, build)
-    names, default_arguments = DEFAULTS[options.unit]
-    models = models_of(bench, options.model or names)
-    arguments = arguments or default_arguments
+    models = models_of(bench, options.model)
     mutants = list(mutants_for(bench, options.file))
     if options.list:
         print("\n".join(map(row_of, mutants)))
         return 0
-
     equivalents = Equivalents()
-    stale = list(equivalents.stale())
-    if stale:
-        print("\n".join(["stale entries of the list of equivalent mutants:", *stale]), file=sys.stderr)
+    campaign = Campaign(options, bench, models, arguments, equivalents)
+    try:
+        check_before(bench, models, arguments, options.limit, equivalents)
+        campaign.run(mutants)
+    except Failed as why:
+        print(why, file=sys.stderr)
         return 1
-    for model in models:
-        wrong = find(bench, [model], None, arguments, options.limit)
-        if wrong:
-            print(f"the original fails: {wrong}", file=sys.stderr)
-            return 1
-
-    known = found_before(options.page, options.unit) if options.keep else {}
-    counts = Counter()
-    rows = []
-    refused = Counter()
-    sample = Sample(mutants, options.seed)
-    print("\n".join(HEAD))
-    while sample.left and (options.count == 0 or counts["live"] < options.count):
-        mutant = sample.draw()
-        row = row_of(mutant)
-        reason = equivalents.reason(mutant)
-        start = time.monotonic()
-        try:
-            found = known.get(row) or find(bench, models, mutant, arguments, options.limit)
-        except Stillborn as why:
-            refused[str(why)] += 1
-            print(f"{row} stillborn: {why} | {time.monotonic() - start:.0f}", flush=True)
-            continue
-        if reason and (found is None or row in known):
-            found = f"equivalent: {reason}"
-            counts["equivalent"] += 1
-        elif reason:
-            print(f"listed as equivalent, but found: {row} {found}", file=sys.stderr)
-            return 1
-        else:
-            counts["survived" if found is None else "killed"] += 1
-        counts["live"] += 1
-        sample.live(mutant)
-        rows.append(f"{row} {found or SURVIVED} |")
-        print(f"{rows[-1]} {time.monotonic() - start:.0f}", flush=True)
-
-    counts["stillborn"] = sum(refused.values())
-    numbers = [f"{key} {counts[key]}" for key in ("live", "killed", "equivalent", "survived", "stillborn")]
-    why = ", ".join(f"{reason} {count}" for reason, count in refused.most_common())
-    command = f"tools/mutate.py {options.unit} --count {options.count} --seed {options.seed}"
-    command += "".join(f" --file {name}" for name in options.file or [])
-    text = [
-        "",
-        f"{', '.join(numbers)}, of {len(mutants)} mutants{f' ({why})' if why else ''}.",
-        "",
-        f"{date.today()}, `{command}`: models {', '.join(model.name for model in models)}, bench options "
-        f"`{show(arguments)}`.",
-        "",
-        *HEAD,
-        *rows,
-        "",
-        "",
-    ]
+    text = campaign.summary(mutants)
     print("\n".join(text[1:4]))
     if options.page:
         write_page(options.page, options.unit, "\n".join(text))
-    return 1 if counts["survived"] else 0
+    return 1 if campaign.counts["survived"] else 0
 
 
 if __name__ == "__main__":

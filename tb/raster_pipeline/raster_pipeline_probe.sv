@@ -65,7 +65,7 @@ bind raster_pipeline raster_pipeline_probe u_probe (
   .last_beat_i     (beat.last),
   .test_first_i    (u_early_z.u_test.swap),
   .test_last_i     (u_early_z.burst_done),
-  .writes_i        (3'(u_early_z.u_test.pushed)),
+  .writes_i        (3'(u_early_z.u_test.u_write_buffer.pushed)),
   .triangle_i      (triangle),
   .equation_i      (equation),
   .state_i         (state),

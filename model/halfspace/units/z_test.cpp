@@ -46,7 +46,7 @@ void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, con
 
 template <int TileSize>
 TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
-                 std::uint32_t* stored, TileCodes<TileSize>& codes) {
+                std::uint32_t* stored, TileCodes<TileSize>& codes) {
   if (!state.test) {
     return burst.coverage.mask;
   }
@@ -63,11 +63,11 @@ TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const Ear
   return passed;
 }
 
-#define HALFSPACE_INSTANTIATE(size)                                                                \
-  template void interpolate_tile<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, \
-                                       TileCodes<size>&);                                          \
-  template TileMask z_test<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&,      \
-                                  std::uint32_t*, TileCodes<size>&);
+#define HALFSPACE_INSTANTIATE(size)                                                                          \
+  template void interpolate_tile<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&,           \
+                                       TileCodes<size>&);                                                    \
+  template TileMask z_test<size>(const SetupTriangle&, const QuadBurst&, const EarlyZState&, std::uint32_t*, \
+                                 TileCodes<size>&);
 HALFSPACE_INSTANTIATE(4)
 HALFSPACE_INSTANTIATE(8)
 HALFSPACE_INSTANTIATE(16)
