@@ -4,22 +4,10 @@
 
 #include <algorithm>
 
+#include "halfspace/units/field_text.hpp"
+
 namespace halfspace::tb {
 namespace {
-
-/// Hexadecimal for masks and the like, decimal for what people count.
-std::string number(std::span<const std::uint32_t> words, const FieldSlot& field) {
-  if (field.width <= 64) {
-    const std::uint64_t bits = extract_bits(words, field.lsb, field.width);
-    return field.sign == Sign::kSigned ? fmt::format("{}", sign_extend(bits, field.width))
-                                       : fmt::format("{:#x}", bits);
-  }
-  std::string text = "0x";
-  for (int done = (field.width - 1) / 32 * 32; done >= 0; done -= 32) {
-    text += fmt::format("{:08x}", extract_bits(words, field.lsb + done, std::min(32, field.width - done)));
-  }
-  return text;
-}
 
 bool same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   return std::ranges::equal(a, b);
@@ -28,14 +16,8 @@ bool same(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
 }  // namespace
 
 std::string Scoreboard::first_difference(const Words& expected, std::span<const std::uint32_t> got) const {
-  for (const FieldSlot& field : fields_) {
-    const std::string want = number(expected, field);
-    const std::string have = number(got, field);
-    if (want != have) {
-      return fmt::format("field {}: expected {}, got {}", field.name, want, have);
-    }
-  }
-  return "bits above the last field differ";
+  const std::string text = halfspace::first_difference(fields_, "expected", expected, "got", got);
+  return text.empty() ? "bits above the last field differ" : text;
 }
 
 Failure Scoreboard::missing() const {

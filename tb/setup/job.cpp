@@ -85,19 +85,8 @@ SetupResult reference(const SetupJob& job, int sub_pixel_bits) {
   for (std::size_t i = 0; i < 3; ++i) {
     triangle.v[i] = {job.triangle.x[i], job.triangle.y[i], job.triangle.z[i]};
   }
-  const DrawStatePacket& draw = job.state;
-  SetupState state{.sub_pixel_bits = sub_pixel_bits,
-                   .front_positive_area = draw.front_positive_area != 0,
-                   .cull_front = draw.cull_front != 0,
-                   .cull_back = draw.cull_back != 0,
-                   .bottom_left_rule = draw.bottom_left_rule != 0,
-                   .bounds = {},
-                   .depth_format = static_cast<DepthFormat>(draw.format)};
-  if (draw.empty == 0) {
-    state.bounds = {draw.x_first, draw.y_first, draw.x_last, draw.y_last};
-  }
   SetupResult result;
-  result.verdict = setup(triangle, state, result.triangle);
+  result.verdict = setup(triangle, setup_state(job.state, sub_pixel_bits), result.triangle);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "halfspace/machine/tile_size.hpp"
 #include "halfspace/units/packing.hpp"
 
 namespace halfspace::tb {
@@ -118,17 +119,8 @@ Walk reference_walk(std::span<const std::uint32_t> triangle, std::uint8_t slot,
   Walk walk;
   walk.one_tile = fits_one_tile(model.bounds, parameters.tile_size);
   StepSink sink(model, parameters, walk);
-  switch (parameters.tile_size) {
-    case 4:
-      tile_walker<4>(model, parameters.walker(), slot, sink);
-      break;
-    case 8:
-      tile_walker<8>(model, parameters.walker(), slot, sink);
-      break;
-    default:
-      tile_walker<16>(model, parameters.walker(), slot, sink);
-      break;
-  }
+  with_tile_size(parameters.tile_size,
+                 [&](auto size) { tile_walker<size()>(model, parameters.walker(), slot, sink); });
   return walk;
 }
 

@@ -19,7 +19,7 @@
 #ifndef HALFSPACE_H
 #define HALFSPACE_H
 
-#include <stdint.h>
+#include <stdint.h>  // NOLINT(modernize-deprecated-headers): the header is C99
 
 #ifdef __cplusplus
 extern "C" {

@@ -90,19 +90,6 @@ std::vector<FieldSlot> link_fields(LinkId link, const Widths& widths) {
   return with_layout(link, [&](auto layout) { return fields_of(layout, widths); });
 }
 
-std::string field_text(const FieldSlot& field, std::span<const std::uint32_t> words) {
-  if (field.width <= 64) {
-    const std::uint64_t bits = extract_bits(words, field.lsb, field.width);
-    return field.sign == Sign::kSigned ? fmt::format("{}", sign_extend(bits, field.width))
-                                       : fmt::format("{:#x}", bits);
-  }
-  std::string text = "0x";
-  for (int done = (field.width - 1) / 32 * 32; done >= 0; done -= 32) {
-    text += fmt::format("{:08x}", extract_bits(words, field.lsb + done, std::min(32, field.width - done)));
-  }
-  return text;
-}
-
 std::string differences(const std::vector<FieldSlot>& fields, std::span<const std::uint32_t> expected,
                         std::span<const std::uint32_t> got) {
   constexpr int kMost = 8;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/c_api/halfspace.h"
+#include "halfspace/units/field_text.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packing.hpp"
 
@@ -95,9 +96,6 @@ int link_bits(LinkId link, const Widths& widths);
 /// The fields of a link's packet, the most significant first; "state.format" where it carries several
 /// structs.
 std::vector<FieldSlot> link_fields(LinkId link, const Widths& widths);
-
-/// "0x1f", or "-3" where the field is signed.
-std::string field_text(const FieldSlot& field, std::span<const std::uint32_t> words);
 
 /// Every field that differs: "mask: expected 0x3, got 0x1; ...", eight of them at most. Empty when none does.
 std::string differences(const std::vector<FieldSlot>& fields, std::span<const std::uint32_t> expected,

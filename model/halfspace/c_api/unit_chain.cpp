@@ -41,26 +41,9 @@ SetupTriangle depth_part(const DepthEquationPacket& equation) {
 
 /// The units' view of a draw. Whatever leaves early_z has its depth, as where quads are recorded.
 DrawContext draw_context(const DrawStatePacket& packet, const Widths& widths) {
-  const auto format = static_cast<DepthFormat>(packet.format);
   DrawContext draw;
-  draw.setup = {.sub_pixel_bits = widths.SubPixelBits,
-                .front_positive_area = packet.front_positive_area != 0,
-                .cull_front = packet.cull_front != 0,
-                .cull_back = packet.cull_back != 0,
-                .bottom_left_rule = packet.bottom_left_rule != 0,
-                .bounds = {},
-                .depth_format = format};
-  if (packet.empty == 0) {
-    draw.setup.bounds = {.x_first = packet.x_first,
-                         .y_first = packet.y_first,
-                         .x_last = packet.x_last,
-                         .y_last = packet.y_last};
-  }
-  draw.early_z = {.test = packet.test != 0,
-                  .write = packet.write != 0,
-                  .func = static_cast<DepthFunc>(packet.func),
-                  .format = format,
-                  .sub_pixel_bits = widths.SubPixelBits};
+  draw.setup = setup_state(packet, widths.SubPixelBits);
+  draw.early_z = early_z_state(packet, widths.SubPixelBits);
   draw.record_quads = true;
   return draw;
 }

@@ -344,6 +344,61 @@ Json line_json(const FidelityError& line) {
   return json;
 }
 
+/// A column of error.csv: its name, and where its value is in a line's JSON.
+struct CsvColumn {
+  std::string name;
+  Json::json_pointer value;
+};
+
+std::vector<CsvColumn> csv_columns() {
+  std::vector<CsvColumn> columns;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    columns.push_back({name, Json::json_pointer(value)});
+  };
+  add("fidelity", "/fidelity");
+  add("runs", "/runs");
+  add("milliseconds", "/milliseconds");
+  add("cycles", "/cycles");
+  add("megacycles_per_second", "/megacycles_per_second");
+  add("error_cycles", "/error/cycles");
+  add("error_percent", "/error/percent");
+  add("draws", "/draws/draws");
+  add("draws_off", "/draws/off");
+  add("draws_cycles_off", "/draws/cycles_off");
+  add("long_draws", "/draws/long_draws");
+  add("draws_mean_percent", "/draws/mean_percent");
+  add("draws_mean_magnitude_percent", "/draws/mean_magnitude_percent");
+  add("worst_draw", "/draws/worst_draw");
+  add("worst_draw_percent", "/draws/worst_percent");
+  for (const StageInfo& stage : kStageInfo) {
+    const std::string name(stage.name);
+    add(name + "_off", "/stages/" + name + "/cycles_off");
+    add(name + "_largest", "/stages/" + name + "/largest");
+    add(name + "_largest_cycles", "/stages/" + name + "/largest_cycles");
+  }
+  for (const std::string name : {"codes", "fragments", "survivors", "counters"}) {
+    add(name + "_different", "/function/" + name);
+  }
+  add("packets_compared", "/packets/compared");
+  add("packets_different", "/packets/different");
+  return columns;
+}
+
+/// Empty where the line has no such value.
+std::string csv_cell(const Json& line, const Json::json_pointer& at) {
+  const Json value = line.contains(at) ? line[at] : Json();
+  if (value.is_null()) {
+    return {};
+  }
+  if (value.is_array()) {
+    return std::to_string(value.size());  // runs
+  }
+  if (value.is_string()) {
+    return value.get<std::string>();
+  }
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
+
 Json to_json(const ErrorTable& table, const std::vector<std::string>& files) {
   Json json;
   json["schema"] = kErrorSchema;
@@ -457,42 +512,19 @@ std::string error_markdown(const ErrorTable& table) {
 }
 
 std::string error_csv(const ErrorTable& table) {
-  std::string text =
-      "workload,fidelity,runs,milliseconds,cycles,megacycles_per_second,error_cycles,error_percent,draws,"
-      "draws_off,"
-      "draws_cycles_off,long_draws,draws_mean_percent,draws_mean_magnitude_percent,worst_draw,worst_draw_"
-      "percent";
-  for (const StageInfo& stage : kStageInfo) {
-    text += fmt::format(",{0}_off,{0}_largest,{0}_largest_cycles", stage.name);
+  const std::vector<CsvColumn> columns = csv_columns();
+  std::string text = "workload";
+  for (const CsvColumn& column : columns) {
+    text += "," + column.name;
   }
-  text +=
-      ",codes_different,fragments_different,survivors_different,counters_different,packets_compared,"
-      "packets_different\n";
-  const auto cell = [&text](const auto& value) { text += fmt::format(",{}", value); };
-  const auto empty = [&text](std::size_t cells) { text.append(cells, ','); };
+  text += '\n';
   for (const WorkloadErrors& workload : table.workloads) {
     for (const FidelityError& line : workload.fidelities) {
-      text += fmt::format("{},{},{},{:.4f}", workload.name, line.fidelity, line.milliseconds.size(),
-                          line.median_milliseconds());
-      line.cycles ? cell(*line.cycles) : empty(1);
-      line.cycles ? cell(*line.megacycles_a_second()) : empty(1);
-      line.error ? cell(fmt::format("{},{}", line.error->cycles, line.error->percent())) : empty(2);
-      line.draws ? cell(fmt::format("{},{},{},{}", line.draws->draws, line.draws->off, line.draws->cycles_off,
-                                    line.draws->long_draws))
-                 : empty(4);
-      line.draws&& line.draws->long_draws != 0
-          ? cell(fmt::format("{},{},{},{}", line.draws->mean_percent, line.draws->mean_magnitude_percent,
-                             line.draws->worst_draw, line.draws->worst_percent))
-          : empty(4);
-      for (std::size_t i = 0; i < kStages; ++i) {
-        line.stages ? cell(fmt::format("{},{},{}", (*line.stages)[i].off, (*line.stages)[i].largest,
-                                       (*line.stages)[i].largest_cycles))
-                    : empty(3);
+      const Json json = line_json(line);
+      text += workload.name;
+      for (const CsvColumn& column : columns) {
+        text += "," + csv_cell(json, column.value);
       }
-      line.function ? cell(fmt::format("{},{},{},{}", line.function->codes, line.function->fragments,
-                                       line.function->survivors, line.function->counters))
-                    : empty(4);
-      line.packets ? cell(fmt::format("{},{}", line.packets->compared, line.packets->different)) : empty(2);
       text += '\n';
     }
   }

@@ -75,6 +75,31 @@ struct DrawStatePacket {
   }
 };
 
+/// What setup looks at in it.
+inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits) {
+  SetupState state{.sub_pixel_bits = sub_pixel_bits,
+                   .front_positive_area = draw.front_positive_area != 0,
+                   .cull_front = draw.cull_front != 0,
+                   .cull_back = draw.cull_back != 0,
+                   .bottom_left_rule = draw.bottom_left_rule != 0,
+                   .bounds = {},
+                   .depth_format = static_cast<DepthFormat>(draw.format)};
+  if (draw.empty == 0) {
+    state.bounds = {
+        .x_first = draw.x_first, .y_first = draw.y_first, .x_last = draw.x_last, .y_last = draw.y_last};
+  }
+  return state;
+}
+
+/// What early_z looks at in it.
+inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits) {
+  return {.test = draw.test != 0,
+          .write = draw.write != 0,
+          .func = static_cast<DepthFunc>(draw.func),
+          .format = static_cast<DepthFormat>(draw.format),
+          .sub_pixel_bits = sub_pixel_bits};
+}
+
 /// What the walk needs of a triangle. The walk starts at the first tile of the bounds, or, where the bounds
 /// do not fit one tile and blocks are walked, at the first block.
 struct SetupTrianglePacket {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/units/field_text.hpp"
 #include "halfspace/units/packing.hpp"
 
 namespace halfspace::rtl {
@@ -48,18 +49,9 @@ class PacketCheck {
 
  private:
   [[nodiscard]] std::string describe(std::uint64_t cycle, std::span<const std::uint32_t> wires) const {
-    for (const FieldSlot& field : field_slots<Packet>(widths_)) {
-      for (int bit = 0; bit < field.width; bit += 64) {
-        const int width = std::min(64, field.width - bit);
-        const std::uint64_t want = extract_bits(words_, field.lsb + bit, width);
-        const std::uint64_t have = extract_bits(wires, field.lsb + bit, width);
-        if (want != have) {
-          return fmt::format("{} packet {} in cycle {}, field {}: model {:#x}, RTL {:#x}", link_, packets_,
-                             cycle, field.name, want, have);
-        }
-      }
-    }
-    return fmt::format("{} packet {} in cycle {}: bits beyond its fields", link_, packets_, cycle);
+    const std::string text = first_difference(field_slots<Packet>(widths_), "model", words_, "RTL", wires);
+    return fmt::format("{} packet {} in cycle {}, {}", link_, packets_, cycle,
+                       text.empty() ? "bits beyond its fields" : text);
   }
 
   const char* link_;

@@ -1,7 +1,5 @@
 #include "halfspace/timing/systemc/edge_evaluator.hpp"
 
-#include <algorithm>
-
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/tile_size.hpp"
 
@@ -17,15 +15,8 @@ void EdgeEvaluator::begin_frame() { next_ = 0; }
 void EdgeEvaluator::evaluate() {
   run_.guard([&] {
     for (;;) {
-      meter_.waits_for(stall::kNoInput);
-      const Cycle visible = in->visible();
-      meter_.work_on(in->front().draw);
-      meter_.stalled(stall::kNoInput, visible);
-      meter_.waits_for(stall::kEdgeNoCredit);
-      const Cycle at = std::max({visible, next_, out->credit()});
-      meter_.stalled(stall::kEdgeNoCredit, at);
-      run_.clock.wait_until(at);
-
+      const Cycle at = meter_.wait_to_begin(*in.operator->(), next_, stall::kEdgeNoCredit,
+                                            [this] { return out->credit(); });
       JobToken token = in->take(at);
       run_.record(&PacketTimes::e, at);
       meter_.busy(at + 1);

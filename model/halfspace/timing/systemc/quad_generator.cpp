@@ -1,7 +1,5 @@
 #include "halfspace/timing/systemc/quad_generator.hpp"
 
-#include <algorithm>
-
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/tile_size.hpp"
 #include "halfspace/timing/contract.hpp"
@@ -18,15 +16,8 @@ void QuadGenerator::begin_frame() { next_ = 0; }
 void QuadGenerator::generate() {
   run_.guard([&] {
     for (;;) {
-      meter_.waits_for(stall::kNoInput);
-      const Cycle visible = in->visible();
-      meter_.work_on(in->front().draw);
-      meter_.stalled(stall::kNoInput, visible);
-      meter_.waits_for(stall::kQuadNoCredit);
-      const Cycle at = std::max({visible, next_, out->credit()});
-      meter_.stalled(stall::kQuadNoCredit, at);
-      run_.clock.wait_until(at);
-
+      const Cycle at = meter_.wait_to_begin(*in.operator->(), next_, stall::kQuadNoCredit,
+                                            [this] { return out->credit(); });
       CoverageToken token = in->take(at);
       run_.record(&PacketTimes::g, at);
       if (!any(token.coverage.mask)) {

@@ -1,8 +1,10 @@
 /// Accounts for every cycle of a stage.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
+#include "halfspace/timing/systemc/credit_link.hpp"
 #include "halfspace/timing/systemc/run_state.hpp"
 #include "halfspace/timing/systemc/timed_signal.hpp"
 
@@ -37,6 +39,23 @@ class StageMeter {
   void busy(Cycle end) {
     count(
         end, [](StageCycles& cycles) -> std::uint64_t& { return cycles.busy; }, kBusy);
+  }
+
+  /// A stage whose first free cycle is `next` waits for the packet at the head of `in`, and then for the
+  /// credit that it needs: credit() gives the cycle from which on there is one, and without it the stage is
+  /// stalled by `no_credit`. Suspends the calling thread until the cycle in which the work begins, and
+  /// returns it.
+  template <class Token, class Credit>
+  Cycle wait_to_begin(CreditIn<Token>& in, Cycle next, std::size_t no_credit, const Credit& credit) {
+    waits_for(stall::kNoInput);
+    const Cycle visible = in.visible();
+    work_on(in.front().draw);
+    stalled(stall::kNoInput, visible);
+    waits_for(no_credit);
+    const Cycle at = std::max({visible, next, credit()});
+    stalled(no_credit, at);
+    run_.clock.wait_until(at);
+    return at;
   }
 
   /// The rest of the frame.

@@ -19,15 +19,8 @@ void ZLookup::begin_frame() { next_ = 0; }
 void ZLookup::look_up_bursts() {
   run_.guard([&] {
     for (;;) {
-      meter_.waits_for(stall::kNoInput);
-      const Cycle visible = in->visible();
-      meter_.work_on(in->front().draw);
-      meter_.stalled(stall::kNoInput, visible);
-      meter_.waits_for(stall::kLookupPendingFull);
-      const Cycle at = std::max({visible, next_, cache_.pending.credit(1)});
-      meter_.stalled(stall::kLookupPendingFull, at);
-      run_.clock.wait_until(at);
-
+      const Cycle at = meter_.wait_to_begin(*in.operator->(), next_, stall::kLookupPendingFull,
+                                            [this] { return cache_.pending.credit(1); });
       const int width = run_.config.quad_generator.quads_per_cycle;
       next_ = at + static_cast<Cycle>(beats(in->front().burst.quads, width));
       looked_up_.burst = in->take(next_ - 1);
