@@ -3,6 +3,7 @@
 
     tools/write_figures.py                                # all, on the frames that ship
     tools/write_figures.py bench-speed --captured DIR/*.ptf.xz
+    tools/write_figures.py --check demo                   # write nothing; exit status 1 if it is stale
 
 Each figure is a block `<!-- NAME: begin -->` ... `<!-- NAME: end -->` of a page, with its command above
 it. Rows of captured frames, which do not ship, are marked. `make docs-figures` runs this script.
@@ -78,7 +79,8 @@ def table(tools, kind, *options):
 
 def reference(tools):
     """Counts of the reference, a row for each depth surface with both ways to take late draws."""
-    columns = ("triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)", "quads", "helpers")
+    columns = ["triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)"]
+    columns += ["quads", "helpers"]
     rows = [f"| frame, surface | {' | '.join(columns)} |", "| --- |" + " ---: |" * len(columns)]
     captured = [frame_name(path) for path in tools.captured]
     for path in [*SCENES, *tools.captured]:
@@ -121,18 +123,29 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"of {', '.join(FIGURES)} (default: all but the last)")
+    names = ", ".join(FIGURES)
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last)")
+    parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
     parser.add_argument(
         "--reference", type=pathlib.Path, default=build / "model/halfspace/reference/halfspace_reference"
     )
-    parser.add_argument("--captured", type=pathlib.Path, nargs="*", default=[], metavar="FRAME")
+    parser.add_argument(
+        "--captured",
+        type=pathlib.Path,
+        nargs="*",
+        default=[],
+        metavar="FRAME",
+        help="frames that do not ship",
+    )
     options = parser.parse_args()
-    tools = Tools(options.program.resolve(), options.reference.resolve(), [p.resolve() for p in options.captured])
+    captured = [path.resolve() for path in options.captured]
+    tools = Tools(options.program.resolve(), options.reference.resolve(), captured)
+    stale = False
     for name in options.figures:
         if name not in FIGURES:
-            parser.error(f"figure is '{name}'; legal: {', '.join(FIGURES)}")
+            parser.error(f"figure is '{name}'; legal: {names}")
     for name in options.figures or ALL:
         page, figure = FIGURES[name]
         try:
@@ -140,8 +153,15 @@ def main():
         except (OSError, subprocess.CalledProcessError) as failure:
             sys.exit(f"{name}: {failure}")
         path = ROOT / page
-        path.write_text(replaced(path.read_text(), name, text, path))
-        print(f"{name}: {page}")
+        before = path.read_text()
+        after = replaced(before, name, text, path)
+        if options.check:
+            stale = stale or before != after
+            print(f"{page}: {name} is {'stale: run `make docs-figures`' if before != after else 'current'}")
+        else:
+            path.write_text(after)
+            print(f"{name}: {page}")
+    sys.exit(1 if stale else 0)
 
 
 if __name__ == "__main__":
