@@ -49,7 +49,7 @@ bench-error: build/release/build.ninja $(PLOT_TOOLS) ## Measure every fidelity b
 	cmake --build --preset release --target halfspace_cli halfspace_rtl_baseline
 	$(HALFSPACE) bench error --config configs/baseline.toml $(SCENES) $(CAPTURED) --synthetic --out out/error
 	.venv/bin/python tools/plot_error.py out/error/error.json docs/images/error.png
-	tools/replace_block.py docs/guides/error.md bench-error out/error/error.md
+	tools/write_figures.py bench-error --captured $(CAPTURED)
 
 .PHONY: release debug
 release debug: %: build/%/build.ninja
@@ -96,3 +96,13 @@ format: ## Lay out the sources by clang-format.
 .PHONY: clean
 clean: ## Remove everything that was built.
 	rm -rf build out .venv
+
+# Each figure alone by its name, as `make bench-speed`: see tools/write_figures.py.
+FIGURES := demo-figure bench-speed bench-time bench-analytic reference-figure
+.PHONY: docs-figures $(FIGURES)
+docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
+	cmake --build --preset release --target halfspace_cli halfspace_reference_tool
+	tools/write_figures.py --captured $(CAPTURED)
+$(FIGURES): build/release/build.ninja
+	cmake --build --preset release --target halfspace_cli halfspace_reference_tool
+	tools/write_figures.py $(@:-figure=) --captured $(CAPTURED)

@@ -18,7 +18,8 @@ def replaced(document, name, text, path):
     head, rest = document.split(begin)
     if end not in rest:
         sys.exit(f"{path}: '{end.strip()}' must come after '{begin.strip()}'")
-    return f"{head}{begin}\n{text.strip()}\n\n{end}{rest.split(end)[1]}"
+    text = text.strip("\n")
+    return f"{head}{begin}\n{text}\n\n{end}{rest.split(end)[1]}"
 
 
 def main():

@@ -8,7 +8,7 @@
 namespace halfspace {
 
 void add_bench_command(CLI::App& app, int& status) {
-  CLI::App* bench = app.add_subcommand("bench", "measure the model");
+  CLI::App* bench = app.add_subcommand("bench", "measure speed and error");
   bench->require_subcommand(1);
   add_bench_speed(*bench);
   add_bench_time(*bench);

@@ -118,14 +118,14 @@ void add_bench_error(CLI::App& bench, int& status) {
   CLI::App* command =
       bench.add_subcommand("error", "run time against error: every fidelity beside the verilated RTL");
   command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME");
-  command->add_flag("--synthetic", options->synthetic, "all synthetic frames, after the others");
+  command->add_flag("--synthetic", options->synthetic, "measure all synthetic frames too");
   options->machine.add_to(*command);
-  command->add_option("--repeat", options->repeat, "timed runs")
+  command->add_option("--repeat", options->repeat, "number of timed runs")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--rtl-seconds", options->rtl_seconds,
-                   "no further run of the RTL on a frame that took it so long already")
+                   "stop repeating the RTL on a frame after so many seconds")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
   options->rtl.add_folder_to(*command);

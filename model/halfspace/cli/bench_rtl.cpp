@@ -51,9 +51,8 @@ void print_speed(const Frame& frame, const Config& config, const RtlOptions& rtl
 
 void bench_rtl(const RtlBenchOptions& options) {
   const Config config = options.machine.config();
-  fmt::print(
-      "medians of {} runs in turns; alone: its inputs recorded and given again, outputs not looked at\n\n",
-      options.repeat);
+  fmt::print("medians of {} runs in turns; alone: recorded inputs played back, outputs ignored\n\n",
+             options.repeat);
   fmt::print(
       "| frame | cycles | alone, ms | Mcycles/s | with checks, ms | Mcycles/s | recurrence, ms | "
       "times faster than alone | than with checks |\n");
@@ -67,11 +66,11 @@ void bench_rtl(const RtlBenchOptions& options) {
 
 void add_bench_rtl(CLI::App& bench) {
   auto options = std::make_shared<RtlBenchOptions>();
-  CLI::App* command = bench.add_subcommand("rtl", "cycles a second of the verilated pipeline");
+  CLI::App* command = bench.add_subcommand("rtl", "speed of the verilated pipeline, in cycles a second");
   command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
   options->rtl.add_to(*command);
-  command->add_option("--repeat", options->repeat, "timed runs")
+  command->add_option("--repeat", options->repeat, "number of timed runs")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback([options] { bench_rtl(*options); });

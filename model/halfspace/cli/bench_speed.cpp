@@ -48,10 +48,10 @@ void bench_speed(const SpeedOptions& options) {
 
 void add_bench_speed(CLI::App& bench) {
   auto options = std::make_shared<SpeedOptions>();
-  CLI::App* speed = bench.add_subcommand("speed", "quads a second of the functional model, quads not stored");
+  CLI::App* speed = bench.add_subcommand("speed", "speed of the functional model, in quads a second");
   speed->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*speed);
-  speed->add_option("--repeat", options->repeat, "timed runs")
+  speed->add_option("--repeat", options->repeat, "number of timed runs")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   speed->callback([options] { bench_speed(*options); });

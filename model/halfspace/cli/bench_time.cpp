@@ -108,7 +108,7 @@ void add_bench_time(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand("time", "run time of every fidelity and of re-timing");
   command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
-  command->add_option("--repeat", options->repeat, "timed runs")
+  command->add_option("--repeat", options->repeat, "number of timed runs")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback([options] { bench_time(*options); });

@@ -15,16 +15,13 @@ namespace {
 std::string to_markdown() {
   std::string text =
       "# Configuration keys\n\n"
-      "Printed by `halfspace config --markdown` from `model/halfspace/config/keys.hpp`. To add a key, add "
-      "its row "
-      "there and run\n"
-      "`make generated`.\n\n"
-      "A key is set by `--set KEY=VALUE` or in a TOML file (`--config FILE`, see [`configs/`](../configs)). "
-      "\"changes\" says whether a\n"
-      "key may change packets (function) or only the cycles in which they move (time).\n"
-      "RTL: the argument of Verilator that sets it, with `VALUE` after `=`; a dash where the RTL has no "
-      "parameter. `halfspace config --rtl` prints\n"
-      "them all.\n";
+      "`halfspace config --markdown` prints this page from `model/halfspace/config/keys.hpp`. To add a\n"
+      "key, add a row there and run `make generated`.\n\n"
+      "Set a key with `--set KEY=VALUE` or in a TOML file (`--config FILE`, see\n"
+      "[`configs/`](../configs)). A key that changes \"function\" may change packets; a key that changes\n"
+      "\"time\" changes only the cycles in which they move. The column \"RTL\" names the argument of\n"
+      "Verilator that sets the key, followed by `=VALUE`; a dash means that the RTL has no such\n"
+      "parameter. `halfspace config --rtl` prints these arguments for a configuration.\n";
   std::string section = "-";
   for (const ConfigKey& key : config_keys({})) {
     const std::size_t dot = key.name.find('.');

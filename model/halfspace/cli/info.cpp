@@ -95,7 +95,7 @@ void add_info_command(CLI::App& app, int& /*status*/) {
   CLI::App* command = app.add_subcommand("info", "show what a frame or a mesh holds");
   options->input.add_to(*command);
   command->footer("Synthetic frames, built in memory:\n" + synthetic_help());
-  command->add_flag("--commands", options->commands, "one line a draw and clear");
+  command->add_flag("--commands", options->commands, "print a line for each draw and clear");
   command->callback([options] { info(*options); });
 }
 

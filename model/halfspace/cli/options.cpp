@@ -61,8 +61,7 @@ void set_stall(StallPlan& plan, const std::string& text) {
   }
   StallPlan::Rate& rate = plan.rate[static_cast<std::size_t>(point - kStallPointName.begin())];
   if (rate.max_cycles != 0) {
-    throw InputError(
-        fmt::format("--stall is '{}'; '{}' was given before, and may be given once", text, *point));
+    throw InputError(fmt::format("--stall is '{}'; '{}' was given before; legal: once", text, *point));
   }
   rate = {.percent = numbers[0], .max_cycles = numbers[1]};
 }
@@ -117,9 +116,10 @@ void InputOptions::add_to(CLI::App& command) {
                   "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
                   "'halfspace info --help' lists the names")
       ->required();
-  command.add_option("--eye", eye, "mesh: camera position (default: the whole mesh is seen)")
+  command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
       ->type_name("X,Y,Z");
-  command.add_option("--at", at, "mesh: point looked at (default: its middle)")->type_name("X,Y,Z");
+  command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
+      ->type_name("X,Y,Z");
   command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")->capture_default_str();
   command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")->type_name("WxH");
 }
@@ -154,7 +154,7 @@ void StallOptions::add_to(CLI::App& command) {
                               fmt::join(kStallPointName, ", ")))
       ->type_name("POINT:PERCENT:MAX_CYCLES")
       ->allow_extra_args(false);
-  command.add_option("--seed", seed, "of the stalls (default: 0)")->type_name("N");
+  command.add_option("--seed", seed, "seed of the stalls (default: 0)")->type_name("N");
 }
 
 StallPlan StallOptions::plan() const {
@@ -169,17 +169,17 @@ StallPlan StallOptions::plan() const {
 void RtlOptions::add_folder_to(CLI::App& command) {
   command
       .add_option("--rtl-folder", folder,
-                  "where the verilated pipelines are (default: lib/halfspace beside the program's folder)")
+                  "folder of the verilated pipelines (default: lib/halfspace beside the program's folder)")
       ->type_name("DIR");
 }
 
 void RtlOptions::add_to(CLI::App& command) {
   add_folder_to(command);
-  command.add_option("--rtl-seed", seed, "of what the RTL's registers hold before reset (default: 0)")
+  command.add_option("--rtl-seed", seed, "seed of the RTL's registers before reset (default: 0)")
       ->type_name("N");
   command
       .add_option("--wave", wave,
-                  "write an FST waveform; for pipelines with checks: --rtl-folder .../checked")
+                  "write an FST waveform; needs a pipeline with checks: --rtl-folder .../checked")
       ->type_name("FILE");
 }
 
@@ -203,13 +203,12 @@ std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& confi
 
 void TimelineOptions::add_to(CLI::App& command, CLI::Option* out) {
   CLI::Option* timeline =
-      command
-          .add_flag("--timeline", wanted, "write what each stage did when, for Perfetto, to timeline.json")
+      command.add_flag("--timeline", wanted, "write timeline.json for Perfetto: what each stage did when")
           ->needs(out);
-  command.add_option("--timeline-draws", draws, "only these draws, both included")
+  command.add_option("--timeline-draws", draws, "show only these draws, LAST included")
       ->type_name("FIRST:LAST")
       ->needs(timeline);
-  command.add_option("--timeline-cycles", cycles, "only these cycles, both included")
+  command.add_option("--timeline-cycles", cycles, "show only these cycles, LAST included")
       ->type_name("FIRST:LAST")
       ->needs(timeline);
 }

@@ -43,7 +43,7 @@ void record(const RecordOptions& options) {
 
 void add_record_command(CLI::App& app, int& /*status*/) {
   auto options = std::make_shared<RecordOptions>();
-  CLI::App* command = app.add_subcommand("record", "keep the packet stream of a frame, to re-time it");
+  CLI::App* command = app.add_subcommand("record", "record the packets of a frame, for `halfspace retime`");
   options->input.add_to(*command);
   options->machine.add_to(*command);
   command->add_option("--out", options->out, "file to write")->type_name("RECORD")->required();

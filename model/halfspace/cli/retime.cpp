@@ -68,8 +68,7 @@ void make_machines(const RetimeOptions& options, const std::vector<Sweep>& sweep
   for (const Sweep& sweep : sweeps) {
     combinations *= sweep.values.size();
     if (combinations * bases.size() > kMostMachines) {
-      throw InputError(
-          fmt::format("--sweep asks for more than {} machines; legal: at most so many", kMostMachines));
+      throw InputError(fmt::format("--sweep makes too many machines; legal: at most {}", kMostMachines));
     }
   }
   for (auto& [name, base] : bases) {
@@ -166,24 +165,26 @@ void retime(const RetimeOptions& options) {
 
 void add_retime_command(CLI::App& app, int& /*status*/) {
   auto options = std::make_shared<RetimeOptions>();
-  CLI::App* command = app.add_subcommand("retime", "cycles of a recorded frame on other machines");
-  command->add_option("RECORD", options->record, "what `halfspace record` wrote")->required();
+  CLI::App* command =
+      app.add_subcommand("retime", "compute the cycles of a recorded frame on other machines");
+  command->add_option("RECORD", options->record, "file that `halfspace record` wrote")->required();
   command
       ->add_option("--config", options->configs,
                    "configuration file, repeatable (default: the recorded machine)")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command->add_option("--set", options->settings, "override one key in all of them, repeatable")
+  command->add_option("--set", options->settings, "override one key on every machine, repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--sweep", options->sweeps, "try every value, repeatable: all combinations")
+  command
+      ->add_option("--sweep", options->sweeps, "try each of the values, repeatable: tries all combinations")
       ->type_name("KEY=VALUE,VALUE,...")
       ->allow_extra_args(false);
   command->add_option("--fidelity", options->fidelity, "recurrence: exact; analytic: an estimate")
       ->check(CLI::IsMember({"recurrence", "analytic"}))
       ->capture_default_str();
-  command->add_option("--csv", options->csv, "write the table there too")->type_name("FILE");
-  command->add_option("--json", options->json, "write the table there too")->type_name("FILE");
+  command->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");
+  command->add_option("--json", options->json, "write the table as JSON too")->type_name("FILE");
   command->callback([options] { retime(*options); });
 }
 

@@ -133,7 +133,7 @@ void add_run_command(CLI::App& app, int& status) {
       ->capture_default_str();
   options->stalls.add_to(*command);
   CLI::Option* out =
-      command->add_option("--out", options->out, "folder for results (default: only the table)")
+      command->add_option("--out", options->out, "folder for results (default: print only the table)")
           ->type_name("DIR");
   command->add_flag("--quads", options->quads, "record every quad in quads.npy")->needs(out);
   command->add_flag("--tiles", options->tiles, "record every decision of the walker in tiles.npy")
@@ -141,11 +141,11 @@ void add_run_command(CLI::App& app, int& status) {
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
   options->rtl.add_to(*command);
-  command->add_option("--vcd", options->vcd, "write what links and stages do as a waveform (systemc)")
+  command->add_option("--vcd", options->vcd, "write a waveform of links and stages (systemc)")
       ->type_name("FILE");
   command
       ->add_option("--tile-jobs", options->tile_jobs,
-                   "write the tile jobs of the edge evaluator, for its bench")
+                   "write the tile jobs of the frame, for the bench of the edge evaluator")
       ->type_name("FILE");
   command->callback([options, &status] { status = run_command(*options); });
 }

@@ -34,9 +34,9 @@
   END(raster)                                                                                                \
   BEGIN(setup)                                                                                               \
     MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \
-        "triangles whose verdict is known or under way, dropped ones included", SetupQueue, 1)               \
+        "triangles in the cull stage and its queue, dropped ones included", SetupQueue, 1)                   \
     MODULE(setup., interval, int, 1, power_of_two(1, 16), "cycles", time,                                    \
-        "distance of drawn triangles: cycles that a stage of the divider works", SetupInterval, 3)           \
+        "from a drawn triangle to the next: the time of a divider stage", SetupInterval, 3)                  \
     MODULE(setup., fifo, int, 24, range(2, 64), "triangles", time,                                           \
         "output FIFO of setup", SetupFifo, 2)                                                                \
   END(setup)                                                                                                 \
@@ -46,13 +46,13 @@
     MODULE(tile_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                       \
         "side of the block that the walker decides before its tiles; larger than a tile", BlockSize, 5)      \
     MODULE(tile_walker., block_level, bool, true, boolean(), "", function,                                   \
-        "decide whole blocks first; off: every tile of the bounds is decided", BlockLevel, 6)                \
+        "decide whole blocks first; off: decide every tile of the bounds", BlockLevel, 6)                    \
     MODULE(tile_walker., trivial_reject, bool, true, boolean(), "", function,                                \
         "drop blocks and tiles that are outside one edge", TrivialReject, 7)                                 \
     MODULE(tile_walker., trivial_accept, bool, true, boolean(), "", function,                                \
-        "evaluate no edge all of whose samples in the tile are inside", TrivialAccept, 8)                    \
+        "skip an edge that has all samples of the tile inside", TrivialAccept, 8)                            \
     MODULE(tile_walker., step_interval, int, 1, range(1, 8), "cycles", time,                                 \
-        "cycles a step of the walker takes", StepInterval, 9)                                                \
+        "length of a step of the walker", StepInterval, 9)                                                   \
     MODULE(tile_walker., fifo, int, 16, range(2, 64), "tile jobs", time,                                     \
         "output FIFO of the walker", WalkerFifo, 4)                                                          \
   END(tile_walker)                                                                                           \
@@ -72,7 +72,7 @@
     PACKAGE(early_z., quads_per_cycle, int, 4, power_of_two(1, 16), "quads", time,                           \
         "quads tested in a cycle; at most quad_generator.quads_per_cycle", TestWidth, HALFSPACE_TEST_WIDTH)  \
     MODULE(early_z., pending, int, 32, range(2, 64), "bursts", time,                                         \
-        "bursts between the lookup of their lines and their test", PendingDepth, 13)                         \
+        "bursts between z_lookup and z_test", PendingDepth, 13)                                              \
     MODULE(early_z., fifo, int, 16, range(2, 64), "bursts", time,                                            \
         "output FIFO of early_z", EarlyZFifo, 14)                                                            \
   END(early_z)                                                                                               \
@@ -87,19 +87,19 @@
     MODULE(z_cache., ways, int, 4, power_of_two(1, 16), "lines", time,                                       \
         "lines of a set", Ways, 16)                                                                          \
     PACKAGE(z_cache., parts, int, 1, power_of_two(1, 4), "", time,                                           \
-        "a line holds a tile, or this part of its rows", ZParts, HALFSPACE_Z_PARTS)                          \
+        "lines of a tile: each holds an equal band of its rows", ZParts, HALFSPACE_Z_PARTS)                  \
     MODULE(z_cache., misses_in_flight, int, 16, range(1, 64), "lines", time,                                 \
         "fill buffers; at least z_cache.parts", MissesInFlight, 17)                                          \
     MODULE(z_cache., write_buffers, int, 4, range(1, 64), "lines", time,                                     \
         "lines on their way to memory; at least z_cache.parts", WriteBuffers, 18)                            \
     KEY(z_cache., fast_clear, bool, true, boolean(), "", function,                                           \
-        "a clear of a whole surface marks its lines; off: it is drawn")                                      \
+        "clear a whole surface by marking its lines; off: draw the clear")                                   \
     MODULE(z_cache., clear_tiles, int, 64, power_of_two(1, 1024), "tiles", time,                             \
         "tiles that a fast clear marks in a cycle", ClearTiles, 21)                                          \
   END(z_cache)                                                                                               \
   BEGIN(memory)                                                                                              \
     KEY(memory., latency, int, 100, range(1, 65535), "cycles", time,                                         \
-        "from a request to the first of its data")                                                           \
+        "from a request to its first data")                                                                  \
     MODULE(memory., read_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                               \
         "read in a cycle", ReadBytes, 19)                                                                    \
     MODULE(memory., write_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                              \

@@ -1,4 +1,4 @@
-/// Who may watch the packets of a run pass.
+/// Observers of the packets of a run.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/// Who wants to know not only how many cycles a stage spent on what, but when.
+/// Observers of the cycles of a run: when each stage works, and when and why it waits.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-/// What every engine that has time takes beside frame and machine, and what it gives.
+/// The options and the result that all engines with cycles share.
 #pragma once
 
 #include "halfspace/machine/frame_result.hpp"

@@ -57,7 +57,7 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   tlm::tlm_initiator_socket<> memory;
 
   /// The frame whose commands are executed next, from depth 1 on all surfaces. It and the observer must live
-  /// until it has ended. Whoever observes cycles is not told: that is for the recurrence.
+  /// until it has ended. Observers of cycles are ignored: only the recurrence serves them.
   void bind_frame(const Frame& frame, const EngineOptions& options = {});
 
   /// Records the credits in use of every link, and the state of every stage: 1 busy, 2 and up its stall

@@ -1,6 +1,6 @@
 /// Fidelity `systemc`: the machine as SystemC modules, the second implementation of the timing contract
-/// (docs/timing.md). Slower than `recurrence`, and what it computes it computes with real data in real FIFOs,
-/// caches and memory.
+/// (docs/timing.md). It is slower than `recurrence`, and moves real data through real FIFOs, caches and
+/// memory.
 #pragma once
 
 #include <filesystem>

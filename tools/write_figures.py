@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""Runs the commands whose output the pages show, and writes it into the pages.
+
+    tools/write_figures.py                                # all, on the frames that ship
+    tools/write_figures.py bench-speed --captured DIR/*.ptf.xz
+    tools/write_figures.py --check demo                   # write nothing; exit status 1 if it is stale
+
+Each figure is a block `<!-- NAME: begin -->` ... `<!-- NAME: end -->` of a page, with its command above
+it. Rows of captured frames, which do not ship, are marked. `make docs-figures` runs this script.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import textwrap
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from replace_block import replaced
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SCENES = sorted(path.relative_to(ROOT) for path in (ROOT / "scenes").glob("*.ptf.xz"))
+MACHINES = ("baseline", "small", "wide", "shallow", "slow_memory")
+CAPTURED = " (captured)"
+
+
+class Tools(NamedTuple):
+    program: pathlib.Path
+    reference: pathlib.Path
+    captured: Sequence[pathlib.Path]
+
+
+def frame_name(path):
+    return path.name.split(".")[0]
+
+
+def marked(text, captured):
+    """The text with ` (captured)` behind the names of captured frames in the first column of tables."""
+    names = "|".join(re.escape(name) for name in captured)
+    return re.sub(rf"^\| ({names}) ", rf"| \1{CAPTURED} ", text, flags=re.MULTILINE) if names else text
+
+
+def processor():
+    """What measured: kind of processor and number of cores."""
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    models = [line.split(":", 1)[1] for line in lines if line.startswith("model name")]
+    kind = re.sub(r"\((?:R|TM)\)| CPU| Processor|@.*", "", models[0] if models else "unknown").strip()
+    return f"{kind}, {max(len(models), 1)} cores, shared"
+
+
+def output(program, *arguments):
+    run = subprocess.run([program, *arguments], cwd=ROOT, check=True, text=True, stdout=subprocess.PIPE)
+    return run.stdout.strip()
+
+
+def demo(tools):
+    """What `make demo` prints, but for the folder's name."""
+    scene = "scenes/cc0_truck.ptf.xz"
+    return f"```text\n{output(tools.program, 'run', scene, '--fidelity', 'recurrence')}\n```"
+
+
+def table(tools, kind, *options):
+    """A table of `halfspace bench KIND`, of the shipped frames and of those that are captured.
+
+    The command's first line, where it has one, says how it measures: then the processor matters too.
+    """
+    text = output(tools.program, "bench", kind, *options, *SCENES, *tools.captured)
+    *method, rows = text.split("\n\n", 1)
+    frames = "scenes/*.ptf.xz" + (" FRAME..." if tools.captured else "")
+    words = " ".join(["halfspace bench", kind, *options, frames])
+    pairs = re.sub(r"(--\w+) ", r"\1~", words)  # an option and its value stay on a line
+    lines = textwrap.wrap(pairs, 88, break_on_hyphens=False, break_long_words=False)
+    command = " \\\n      ".join(lines).replace("~", " ")
+    how = f"{processor()}; {method[0]}.\n\n" if method else ""
+    return f"    {command}\n\n{how}{marked(rows, map(frame_name, tools.captured))}"
+
+
+def reference(tools):
+    """Counts of the reference, a row for each depth surface with both ways to take late draws."""
+    columns = ["triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)"]
+    columns += ["quads", "helpers"]
+    rows = [f"| frame, surface | {' | '.join(columns)} |", "| --- |" + " ---: |" * len(columns)]
+    captured = [frame_name(path) for path in tools.captured]
+    for path in [*SCENES, *tools.captured]:
+        lines = [line.split("\t") for line in output(tools.reference, path).splitlines()[1:]]
+        for no_write, opaque in zip(lines[::2], lines[1::2], strict=True):
+            name, surface = opaque[:2]
+            triangles, clipped, culled, drawn, fragments, passed, quads, helpers = (
+                f"{int(value):,}" for value in opaque[5:]
+            )
+            passed = f"{int(no_write[10]):,} / {passed}"
+            mark = CAPTURED if name in captured else ""
+            cells = (triangles, clipped, culled, drawn, fragments, passed, quads, helpers)
+            rows.append(f"| {name} {surface}{mark} | {' | '.join(cells)} |")
+    return "\n".join(rows)
+
+
+def error(tools):
+    """The tables that `halfspace bench error` wrote; see the Makefile."""
+    text = (ROOT / "out/error/error.md").read_text()
+    return f"{processor()}.\n\n" + marked(text, map(frame_name, tools.captured))
+
+
+def bench_analytic(tools):
+    configs = [word for name in MACHINES for word in ("--config", f"configs/{name}.toml")]
+    return table(tools, "analytic", *configs)
+
+
+FIGURES = {
+    "demo": ("README.md", demo),
+    "bench-speed": ("README.md", lambda tools: table(tools, "speed")),
+    "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
+    "bench-analytic": ("docs/guides/time.md", bench_analytic),
+    "reference": ("docs/guides/reference.md", reference),
+    "bench-error": ("docs/guides/error.md", error),
+}
+ALL = [name for name in FIGURES if name != "bench-error"]  # which needs the RTL: `make bench-error`
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    names = ", ".join(FIGURES)
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last)")
+    parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
+    build = ROOT / "build/release"
+    parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
+    parser.add_argument(
+        "--reference", type=pathlib.Path, default=build / "model/halfspace/reference/halfspace_reference"
+    )
+    parser.add_argument(
+        "--captured",
+        type=pathlib.Path,
+        nargs="*",
+        default=[],
+        metavar="FRAME",
+        help="frames that do not ship",
+    )
+    options = parser.parse_args()
+    captured = [path.resolve() for path in options.captured]
+    tools = Tools(options.program.resolve(), options.reference.resolve(), captured)
+    stale = False
+    for name in options.figures:
+        if name not in FIGURES:
+            parser.error(f"figure is '{name}'; legal: {names}")
+    for name in options.figures or ALL:
+        page, figure = FIGURES[name]
+        try:
+            text = figure(tools)
+        except (OSError, subprocess.CalledProcessError) as failure:
+            sys.exit(f"{name}: {failure}")
+        path = ROOT / page
+        before = path.read_text()
+        after = replaced(before, name, text, path)
+        if options.check:
+            stale = stale or before != after
+            print(f"{page}: {name} is {'stale: run `make docs-figures`' if before != after else 'current'}")
+        else:
+            path.write_text(after)
+            print(f"{name}: {page}")
+    sys.exit(1 if stale else 0)
+
+
+if __name__ == "__main__":
+    main()
