@@ -348,16 +348,17 @@ Json line_json(const FidelityError& line) {
 struct CsvColumn {
   std::string name;
   Json::json_pointer value;
+  int decimals = -1;  ///< of a number; -1: as many as it needs
 };
 
 std::vector<CsvColumn> csv_columns() {
   std::vector<CsvColumn> columns;
-  const auto add = [&](const std::string& name, const std::string& value) {
-    columns.push_back({name, Json::json_pointer(value)});
+  const auto add = [&](const std::string& name, const std::string& value, int decimals = -1) {
+    columns.push_back({name, Json::json_pointer(value), decimals});
   };
   add("fidelity", "/fidelity");
   add("runs", "/runs");
-  add("milliseconds", "/milliseconds");
+  add("milliseconds", "/milliseconds", 4);
   add("cycles", "/cycles");
   add("megacycles_per_second", "/megacycles_per_second");
   add("error_cycles", "/error/cycles");
@@ -385,8 +386,8 @@ std::vector<CsvColumn> csv_columns() {
 }
 
 /// Empty where the line has no such value.
-std::string csv_cell(const Json& line, const Json::json_pointer& at) {
-  const Json value = line.contains(at) ? line[at] : Json();
+std::string csv_cell(const Json& line, const CsvColumn& column) {
+  const Json value = line.contains(column.value) ? line[column.value] : Json();
   if (value.is_null()) {
     return {};
   }
@@ -396,7 +397,11 @@ std::string csv_cell(const Json& line, const Json::json_pointer& at) {
   if (value.is_string()) {
     return value.get<std::string>();
   }
-  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+  if (!value.is_number_float()) {
+    return value.dump();
+  }
+  const auto number = value.get<double>();
+  return column.decimals < 0 ? fmt::format("{}", number) : fmt::format("{:.{}f}", number, column.decimals);
 }
 
 Json to_json(const ErrorTable& table, const std::vector<std::string>& files) {
@@ -523,7 +528,7 @@ std::string error_csv(const ErrorTable& table) {
       const Json json = line_json(line);
       text += workload.name;
       for (const CsvColumn& column : columns) {
-        text += "," + csv_cell(json, column.value);
+        text += "," + csv_cell(json, column);
       }
       text += '\n';
     }

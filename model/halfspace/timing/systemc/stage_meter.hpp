@@ -44,9 +44,9 @@ class StageMeter {
   /// A stage whose first free cycle is `next` waits for the packet at the head of `in`, and then for the
   /// credit that it needs: credit() gives the cycle from which on there is one, and without it the stage is
   /// stalled by `no_credit`. Suspends the calling thread until the cycle in which the work begins, and
-  /// returns it.
+  /// returns it. `next` is looked at when there is a packet: a frame may begin before that.
   template <class Token, class Credit>
-  Cycle wait_to_begin(CreditIn<Token>& in, Cycle next, std::size_t no_credit, const Credit& credit) {
+  Cycle wait_to_begin(CreditIn<Token>& in, const Cycle& next, std::size_t no_credit, const Credit& credit) {
     waits_for(stall::kNoInput);
     const Cycle visible = in.visible();
     work_on(in.front().draw);
