@@ -195,7 +195,7 @@ def _raster_pipeline() -> Unit:
 
     return Unit(
         "raster_pipeline",
-        ("raster_pipeline",),
+        (*sorted(path.stem for path in RTL.glob("*.f") if path.stem != "raster_pipeline"), "raster_pipeline"),
         (of(1, measured=False), of(4, measured=False, long=True)),
     )
 

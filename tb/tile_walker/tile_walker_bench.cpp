@@ -10,6 +10,7 @@
 #include "common/bench_cli.hpp"
 #include "halfspace/config/config.hpp"
 #include "halfspace/timing/recurrence/core.hpp"
+#include "halfspace/timing/recurrence/cycle_probe.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packing.hpp"
@@ -33,30 +34,6 @@ std::uint64_t most_steps(const WalkerParameters& walker) {
   return 2 * across * across;
 }
 
-/// Looks at the recurrence for when triangles are taken and jobs leave.
-struct CycleProbe {
-  static constexpr bool kLooks = true;
-  std::uint64_t first_taken = 0;  ///< the first triangle
-  std::uint64_t last_taken = 0;   ///< the last job, by edge_evaluator
-
-  void decide(auto... /*terms*/) {}
-  void accept(std::uint64_t /*decide*/, std::uint64_t /*walk_next*/, std::uint64_t taken_next) {
-    first_taken = first_taken == 0 ? taken_next - 1 : first_taken;
-  }
-  void emit(auto... /*terms*/) {}
-  void edge(std::uint64_t /*e_next*/, std::uint64_t /*visible*/, std::uint64_t e, std::uint64_t /*g_next*/) {
-    last_taken = e;
-  }
-  void quad(auto... /*terms*/) {}
-  void walked(auto... /*terms*/) {}
-  void lookup(auto... /*terms*/) {}
-  void request(auto... /*terms*/) {}
-  void read(auto... /*terms*/) {}
-  void test(auto... /*terms*/) {}
-  void sink(auto... /*terms*/) {}
-  void write(auto... /*terms*/) {}
-};
-
 /// The cycles from the first triangle to the last job, by the model's own timing engine, where nothing but
 /// the walker takes time.
 std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const WalkerParameters& walker) {
@@ -65,9 +42,10 @@ std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const
   config.tile_walker.fifo = walker.fifo_depth;
   config.setup.queue = config.setup.fifo = config.edge_evaluator.fifo = config.quad_generator.fifo =
       kMostCredits;
-  CycleProbe probe;
-  RecurrenceCore<OneMachine, NoStalls, CycleProbe> core(machine(config), make_credits(config), NoStalls{},
-                                                        probe);
+  PacketTimes times;
+  CycleProbe<false> probe(capacities(config), &times, nullptr);
+  RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core(machine(config), make_credits(config),
+                                                               NoStalls{}, probe);
   std::vector<std::uint32_t> words(InputWords(walker.widths()).triangle);
   for (const SetupTriangle& triangle : triangles) {
     pack(to_packet(triangle, walker.walker(), walker.tile_size), walker.widths(), words);
@@ -82,7 +60,7 @@ std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const
     }
     core.walked(steps);
   }
-  return probe.last_taken - probe.first_taken + 1;
+  return times.e.back() - times.accept.front() + 1;
 }
 
 /// The bench as a whole: its models, and the bins of the one at work.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "halfspace/config/config.hpp"
@@ -16,30 +17,32 @@
 namespace halfspace {
 
 // clang-format off
-/// S(Identifier, name, reasons to wait in order of priority). The first reason of every stage is that it has
-/// nothing to do. In the order of the pipe.
-#define HALFSPACE_STAGES(S)                                                                                  \
-  S(Setup,         setup,          "no_triangle", "divider", "no_credit")                                    \
-  S(TileWalker,    tile_walker,    "no_triangle", "load", "no_credit")                                       \
-  S(EdgeEvaluator, edge_evaluator, "no_tile", "no_credit")                                                   \
-  S(QuadGenerator, quad_generator, "no_coverage", "no_credit")                                               \
-  S(ZLookup,       z_lookup,       "no_burst", "pending_full", "write_back", "fill_buffers", "request")      \
-  S(ZTest,         z_test,         "no_burst", "fill", "write_buffer", "no_credit")
+/// S(Identifier, name, what it works on, reasons to wait in order of priority). The first reason of every stage is
+/// that it has nothing to do. In the order of the pipe.
+#define HALFSPACE_STAGES(S)                                                                                    \
+  S(Setup,         setup,          Triangle, "no_triangle", "divider", "no_credit")                            \
+  S(TileWalker,    tile_walker,    Triangle, "no_triangle", "load", "no_credit")                               \
+  S(EdgeEvaluator, edge_evaluator, Job,      "no_tile", "no_credit")                                           \
+  S(QuadGenerator, quad_generator, Job,      "no_coverage", "no_credit")                                       \
+  S(ZLookup,       z_lookup,       Burst,    "no_burst", "pending_full", "write_back", "fill_buffers", "request") \
+  S(ZTest,         z_test,         Burst,    "no_burst", "fill", "write_buffer", "no_credit")
 
-/// L(Identifier, name, key of its capacity). The links, by the unit that fills them; the queue and the pending
-/// store are inside setup and early_z.
-#define HALFSPACE_LINKS(L)                                                                                   \
-  L(SetupQueue,    setup_queue,     setup.queue)                                                             \
-  L(Setup,         setup,           setup.fifo)                                                              \
-  L(TileWalker,    tile_walker,     tile_walker.fifo)                                                        \
-  L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo)                                                     \
-  L(QuadGenerator, quad_generator,  quad_generator.fifo)                                                     \
-  L(EarlyZPending, early_z_pending, early_z.pending)                                                         \
-  L(EarlyZ,        early_z,         early_z.fifo)
+/// L(Identifier, name, key of its capacity, latency, where its packets can be held back). The links, by the unit that
+/// fills them; the queue and the pending store are inside setup and early_z. The latency is that of the unit: cycles
+/// from the work on a packet to the cycle in which the next stage may take it.
+#define HALFSPACE_LINKS(L)                                                                                     \
+  L(SetupQueue,    setup_queue,     setup.queue,          4,                     std::nullopt)                 \
+  L(Setup,         setup,           setup.fifo,           18,                    StallPoint::kSetup)           \
+  L(TileWalker,    tile_walker,     tile_walker.fifo,     2,                     StallPoint::kTileWalker)      \
+  L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo,                                                       \
+    config.edge_evaluator.pipe_stages + 1 /* and the output register */,         StallPoint::kEdgeEvaluator)   \
+  L(QuadGenerator, quad_generator,  quad_generator.fifo,  2,                     StallPoint::kQuadGenerator)   \
+  L(EarlyZPending, early_z_pending, early_z.pending,      12,                    std::nullopt)                 \
+  L(EarlyZ,        early_z,         early_z.fifo,         2,                     StallPoint::kSink)
 
 /// The same for the buffers of the memory side: FIFOs with credits, but no links.
-#define HALFSPACE_BUFFERS(B)                                                                                 \
-  B(FillBuffers,   fill_buffers,    z_cache.misses_in_flight)                                                \
+#define HALFSPACE_BUFFERS(B)                                                                                   \
+  B(FillBuffers,   fill_buffers,    z_cache.misses_in_flight)                                                  \
   B(WriteBuffers,  write_buffers,   z_cache.write_buffers)
 
 /// P(Identifier, name): packet n of a link counts as visible so many cycles later; triangle n of the source
@@ -76,12 +79,17 @@ inline constexpr std::size_t kStages = HALFSPACE_STAGES(HALFSPACE_ONE);
 
 inline constexpr std::size_t kMostStallReasons = 5;
 
+/// A burst belongs to a tile job, and that to a triangle.
+enum class PacketKind : std::uint8_t { kTriangle, kJob, kBurst };
+
 struct StageInfo {
   std::string_view name;
+  PacketKind works_on;
   std::array<std::string_view, kMostStallReasons> stall;  ///< empty where there is no further reason
 };
 
-#define HALFSPACE_STAGE_INFO(identifier, name, ...) StageInfo{#name, {__VA_ARGS__}},
+#define HALFSPACE_STAGE_INFO(identifier, name, kind, ...) \
+  StageInfo{#name, PacketKind::k##kind, {__VA_ARGS__}},
 inline constexpr std::array<StageInfo, kStages> kStageInfo{HALFSPACE_STAGES(HALFSPACE_STAGE_INFO)};
 #undef HALFSPACE_STAGE_INFO
 
@@ -113,6 +121,11 @@ inline constexpr std::size_t kTestWriteBuffer = stall_reason(Stage::kZTest, "wri
 inline constexpr std::size_t kTestNoCredit = stall_reason(Stage::kZTest, "no_credit");
 }  // namespace stall
 
+enum class StallPoint : std::uint8_t { HALFSPACE_STALL_POINTS(HALFSPACE_ENUMERATOR) };
+inline constexpr std::size_t kStallPoints = HALFSPACE_STALL_POINTS(HALFSPACE_ONE);
+inline constexpr std::array<std::string_view, kStallPoints> kStallPointName{
+    HALFSPACE_STALL_POINTS(HALFSPACE_NAME)};
+
 enum class Link : std::uint8_t { HALFSPACE_LINKS(HALFSPACE_ENUMERATOR) };
 inline constexpr std::size_t kLinks = HALFSPACE_LINKS(HALFSPACE_ONE);
 inline constexpr std::array<std::string_view, kLinks> kLinkName{HALFSPACE_LINKS(HALFSPACE_NAME)};
@@ -127,15 +140,33 @@ inline constexpr std::array<std::string_view, kFifos> kFifoName{HALFSPACE_LINKS(
 
 /// Of each FIFO, in packets.
 inline std::array<int, kFifos> capacities(const Config& config) {
-#define HALFSPACE_CAPACITY(identifier, name, key) config.key,
+#define HALFSPACE_CAPACITY(identifier, name, key, ...) config.key,
   return {HALFSPACE_LINKS(HALFSPACE_CAPACITY) HALFSPACE_BUFFERS(HALFSPACE_CAPACITY)};
 #undef HALFSPACE_CAPACITY
 }
 
-enum class StallPoint : std::uint8_t { HALFSPACE_STALL_POINTS(HALFSPACE_ENUMERATOR) };
-inline constexpr std::size_t kStallPoints = HALFSPACE_STALL_POINTS(HALFSPACE_ONE);
-inline constexpr std::array<std::string_view, kStallPoints> kStallPointName{
-    HALFSPACE_STALL_POINTS(HALFSPACE_NAME)};
+/// Cycles from the work on a packet of the link to the cycle in which the next stage may take it.
+constexpr int latency(Link link, const Config& config) {
+#define HALFSPACE_LATENCY(identifier, name, key, cycles, ...) (cycles),
+  const std::array<int, kLinks> table{HALFSPACE_LINKS(HALFSPACE_LATENCY)};
+#undef HALFSPACE_LATENCY
+  return table[static_cast<std::size_t>(link)];
+}
+
+/// Of all links together.
+constexpr int sum_of_latencies(const Config& config) {
+  int sum = 0;
+  for (std::size_t i = 0; i < kLinks; ++i) {
+    sum += latency(static_cast<Link>(i), config);
+  }
+  return sum;
+}
+
+#define HALFSPACE_HELD_BACK(identifier, name, key, cycles, point) point,
+/// Where the packets of a link can be held back.
+inline constexpr std::array<std::optional<StallPoint>, kLinks> kHeldBackAt{
+    HALFSPACE_LINKS(HALFSPACE_HELD_BACK)};
+#undef HALFSPACE_HELD_BACK
 
 enum class Event : std::uint8_t { HALFSPACE_EVENTS(HALFSPACE_ENUMERATOR) };
 inline constexpr std::size_t kEvents = HALFSPACE_EVENTS(HALFSPACE_ONE);

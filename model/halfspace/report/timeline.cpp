@@ -154,10 +154,8 @@ void Timeline::count(std::size_t link, std::uint64_t cycle, std::uint64_t in_use
 }
 
 void Timeline::slice(Stage stage, std::optional<std::size_t> stall, std::uint64_t from, std::uint64_t to) {
-  const Work work = stage == Stage::kZLookup || stage == Stage::kZTest                 ? Work::kBurst
-                    : stage == Stage::kEdgeEvaluator || stage == Stage::kQuadGenerator ? Work::kJob
-                                                                                       : Work::kTriangle;
   const auto track = static_cast<std::size_t>(stage);
+  const PacketKind work = kStageInfo[track].works_on;
   if (stall) {
     span(Process::kStages, track, "stall", kStageInfo[track].stall[*stall], from, to, work);
   } else {
@@ -166,12 +164,12 @@ void Timeline::slice(Stage stage, std::optional<std::size_t> stall, std::uint64_
 }
 
 void Timeline::transfer(Channel channel, std::uint64_t from, std::uint64_t to) {
-  span(Process::kMemory, static_cast<std::size_t>(channel), "busy", packet(Work::kBurst), from, to,
-       Work::kBurst);
+  span(Process::kMemory, static_cast<std::size_t>(channel), "busy", packet(PacketKind::kBurst), from, to,
+       PacketKind::kBurst);
 }
 
 void Timeline::span(Process process, std::size_t track, std::string_view category, std::string_view name,
-                    std::uint64_t from, std::uint64_t to, Work work) {
+                    std::uint64_t from, std::uint64_t to, PacketKind work) {
   const std::uint64_t first = std::max(from, window_.first);
   const std::uint64_t last = std::min(to - 1, window_.last);
   if (!chosen_ || first > last) {
@@ -183,32 +181,32 @@ void Timeline::span(Process process, std::size_t track, std::string_view categor
 }
 
 /// The packet's name: of the draw and its number there, counted from 0.
-std::string Timeline::packet(Work work) const {
+std::string Timeline::packet(PacketKind work) const {
   if (drained_) {
     return "flush";
   }
   const std::string draw = draw_ ? fmt::format("draw {}", *draw_) : "clear";
   switch (work) {
-    case Work::kTriangle:
+    case PacketKind::kTriangle:
       return fmt::format("{} triangle {}", draw, triangles_ - 1);
-    case Work::kJob:
+    case PacketKind::kJob:
       return fmt::format("{} job {}", draw, jobs_ - 1);
     default:
       return fmt::format("{} burst {}", draw, bursts_ - 1);
   }
 }
 
-std::string Timeline::arguments(Work work) const {
+std::string Timeline::arguments(PacketKind work) const {
   if (drained_) {
     return {};
   }
   std::string text = draw_ ? fmt::format(R"("draw":{},)", *draw_) : "";
   text += fmt::format(R"("triangle":{})", triangles_ - 1);
-  if (work != Work::kTriangle) {
+  if (work != PacketKind::kTriangle) {
     text += fmt::format(R"(,"job":{})", jobs_ - 1);
     text += tile_ ? fmt::format(R"(,"x":{},"y":{})", tile_->x, tile_->y) : "";
   }
-  if (work == Work::kBurst) {
+  if (work == PacketKind::kBurst) {
     text += fmt::format(R"(,"burst":{})", bursts_ - 1);
   }
   return text;

@@ -56,7 +56,6 @@ class Timeline final : public CycleObserver {
 
  private:
   enum class Process : std::uint8_t { kStages = 1, kLinks, kMemory };  ///< groups of tracks
-  enum class Work : std::uint8_t { kTriangle, kJob, kBurst };
 
   struct Tile {
     std::uint32_t x = 0;
@@ -80,9 +79,9 @@ class Timeline final : public CycleObserver {
   void write_change(std::size_t link);
   void count(std::size_t link, std::uint64_t cycle, std::uint64_t in_use);
   void span(Process process, std::size_t track, std::string_view category, std::string_view name,
-            std::uint64_t from, std::uint64_t to, Work work);
-  [[nodiscard]] std::string packet(Work work) const;
-  [[nodiscard]] std::string arguments(Work work) const;
+            std::uint64_t from, std::uint64_t to, PacketKind work);
+  [[nodiscard]] std::string packet(PacketKind work) const;
+  [[nodiscard]] std::string arguments(PacketKind work) const;
   fmt::memory_buffer& begin_event();
   void empty_buffer();
 

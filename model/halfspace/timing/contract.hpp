@@ -1,5 +1,6 @@
-/// The fixed latencies of the units and the arithmetic of beats; docs/timing.md and the pages of the units
-/// are the contract these belong to. Everything that can be chosen is in the configuration.
+/// The arithmetic of beats, transfers and clears, and the fixed latencies of the units; docs/timing.md and
+/// the pages of the units are the contract these belong to. Everything that can be chosen is in the
+/// configuration.
 #pragma once
 
 #include <algorithm>
@@ -7,22 +8,20 @@
 #include <cstdint>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/shape.hpp"
 
 namespace halfspace {
 
-// In cycles, from the work on a packet to the cycle in which the next stage may take it.
-inline constexpr int kSetupCullLatency = 4;
-inline constexpr int kSetupDivideLatency = 18;
-inline constexpr int kWalkerLatency = 2;
-inline constexpr int kQuadLatency = 2;
-inline constexpr int kLookupLatency = 12;
-inline constexpr int kTestLatency = 2;
+// Latencies that no key changes; the table of links has them all.
+inline constexpr int kSetupCullLatency = latency(Link::kSetupQueue, {});
+inline constexpr int kSetupDivideLatency = latency(Link::kSetup, {});
+inline constexpr int kWalkerLatency = latency(Link::kTileWalker, {});
+inline constexpr int kQuadLatency = latency(Link::kQuadGenerator, {});
+inline constexpr int kLookupLatency = latency(Link::kEarlyZPending, {});
+inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 
 /// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
 inline constexpr std::size_t kMostCredits = 64;
-
-/// Of the edge evaluator: its pipeline and the output register.
-inline int edge_latency(const Config& config) { return config.edge_evaluator.pipe_stages + 1; }
 
 /// Beats of a burst of `quads` on a link that is `width` quads wide.
 constexpr int beats(int quads, int width) { return (quads + width - 1) / width; }

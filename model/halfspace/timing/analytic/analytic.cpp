@@ -29,8 +29,7 @@ class WorkReader final : public StreamReader {
 }  // namespace
 
 std::uint64_t fill_cycles(const Config& config) {
-  const int cycles = kSetupCullLatency + kSetupDivideLatency + 1 + kWalkerLatency + edge_latency(config) +
-                     kQuadLatency + kLookupLatency + kTestLatency;
+  const int cycles = sum_of_latencies(config) + 1;
   return static_cast<std::uint64_t>(cycles);
 }
 

@@ -140,13 +140,13 @@ std::uint64_t longest_time(const FrameWork& work, const Config& config) {
   for (const std::uint32_t tiles : work.fast_clears) {
     time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));
   }
-  const std::uint64_t each_job =
-      kWalkerLatency + m.edge_latency + kQuadLatency + kLookupLatency + kTestLatency + 16;
+  // 16 and 4: the cycles in which credits travel, and more than that
+  const auto through = static_cast<std::uint64_t>(sum_of_latencies(config));
+  const std::uint64_t each_job = through + 16;
   for (std::size_t quads = 0; quads < sum.tiles.size(); ++quads) {
     time += sum.tiles[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);
   }
-  // 16 and 4: the cycles in which credits travel, and more than that
-  const std::uint64_t each_triangle = kSetupCullLatency + kSetupDivideLatency + m.setup_interval + 4;
+  const std::uint64_t each_triangle = through + m.setup_interval + 4;
   time += sum.triangles * each_triangle + sum.steps * m.step_interval;
   for (std::size_t i = 0; i < sum.fetched.size(); ++i) {
     time += sum.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "halfspace/machine/packet_stream.hpp"
+#include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
@@ -53,7 +54,7 @@ class RecurrenceCore {
     const T head = cull();
     const T decide = later(head, decide_next_);
     if constexpr (Probe::kLooks) {
-      probe_.decide(cull_next_, decide_next_, head, head, decide);
+      decided(head, head, decide);
     }
     decide_next_ = decide + 1;
     fifo(Fifo::kSetupQueue).give(decide_next_);
@@ -64,7 +65,7 @@ class RecurrenceCore {
     const T divider = later(head, divider_next_);
     const T decide = later(later(divider, decide_next_), fifo(Fifo::kSetup).usable());
     if constexpr (Probe::kLooks) {
-      probe_.decide(cull_next_, decide_next_, head, divider, decide);
+      decided(head, divider, decide);
     }
     decide_next_ = decide + 1;
     divider_next_ = decide + machine_.setup_interval;
@@ -73,7 +74,11 @@ class RecurrenceCore {
     ++triangles_;
     const T taken = later(visible + 1, walk_next_);  // the cycle after accept
     if constexpr (Probe::kLooks) {
-      probe_.accept(decide, walk_next_, taken);
+      probe_.link(Link::kSetup, decide, taken);
+      if (taken > walk_next_) {
+        probe_.template split<2>(Stage::kTileWalker, walk_next_, {taken - 1, taken}, 0);
+      }
+      probe_.note(&PacketTimes::accept, taken - 1);
     }
     fifo(Fifo::kSetup).give(taken);
     walk_next_ = taken;
@@ -89,9 +94,16 @@ class RecurrenceCore {
     const T g = later(later(coverage, g_next_), fifo(Fifo::kQuadGenerator).usable());
     if constexpr (Probe::kLooks) {
       const T visible = emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_));
-      probe_.emit(walk_next_, stepped, emit_next, e + 1);
-      probe_.edge(e_next_, visible, e, g + 1);
-      probe_.quad(g_next_, coverage, g, work.quads == 0 ? T(1) : beats_of(work));
+      probe_.link(Link::kTileWalker, emit_next - 1, e + 1);
+      probe_.busy(Stage::kTileWalker, walk_next_, stepped);
+      probe_.wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emit_next);
+      probe_.note(&PacketTimes::emit, emit_next - 1);
+      probe_.link(Link::kEdgeEvaluator, e, g + 1);
+      probe_.template split<2>(Stage::kEdgeEvaluator, e_next_, {visible, e}, 1);
+      probe_.note(&PacketTimes::e, e);
+      probe_.template split<2>(Stage::kQuadGenerator, g_next_, {coverage, g},
+                               work.quads == 0 ? T(1) : beats_of(work));
+      probe_.note(&PacketTimes::g, g);
     }
     ++jobs_;
     walk_next_ = emit_next;
@@ -110,7 +122,7 @@ class RecurrenceCore {
   void walked(std::uint32_t steps) {
     const T done = walk_next_ + machine_.step_interval * steps;
     if constexpr (Probe::kLooks) {
-      probe_.walked(walk_next_, done);
+      probe_.busy(Stage::kTileWalker, walk_next_, done);
     }
     walk_next_ = done;
   }
@@ -159,6 +171,24 @@ class RecurrenceCore {
     return c + kSetupCullLatency;
   }
 
+  /// Tells of a decision: the verdict was at the queue's head in `head`, and the divider free in `divider`.
+  void decided(const T& head, const T& divider, const T& decide) {
+    probe_.link(Link::kSetupQueue, cull_next_ - 1, decide + 1);
+    probe_.template split<3>(Stage::kSetup, decide_next_, {head, divider, decide}, 1);
+    probe_.note(&PacketTimes::decide, decide);
+  }
+
+  /// Tells of a missing part that could be resolved from `ready` on: it was out of the cache from `out` on,
+  /// and resolved in `r`, when a fill buffer was free. Of these cycles those count in which no beat moves any
+  /// more, from `moved` on. In that of the last part the next burst may be taken already: it is not this
+  /// one's.
+  void resolved(const T& moved, const T& ready, const T& out, const T& r, bool last) {
+    const auto after = [&moved](const T& cycle) { return later(cycle, moved); };
+    probe_.wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
+    probe_.wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
+    probe_.wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(last ? r : r + 1));
+  }
+
   /// The first cycle in which no stage, no write to memory and no clear has anything left to do.
   [[nodiscard]] T idle() const {
     return later(later(later(decide_next_, walk_next_), later(e_next_, g_next_)),
@@ -170,7 +200,9 @@ class RecurrenceCore {
     const T f = later(later(visible, f_next_), fifo(Fifo::kEarlyZPending).usable());
     const T moved = f + beats_of(work);
     if constexpr (Probe::kLooks) {
-      probe_.lookup(g, f_next_, visible, f, moved);
+      probe_.link(Link::kQuadGenerator, g, moved);
+      probe_.template split<2>(Stage::kZLookup, f_next_, {visible, f}, moved - f);
+      probe_.note(&PacketTimes::f, f);
     }
     fifo(Fifo::kQuadGenerator).give(moved);
     f_next_ = moved;
@@ -181,7 +213,9 @@ class RecurrenceCore {
                       fifo(Fifo::kEarlyZ).usable());
     const T beats = machine_.test_beats[static_cast<std::size_t>(work.quads)];
     if constexpr (Probe::kLooks) {
-      probe_.test(f, b_next_, filled_next, slots, b, beats);
+      probe_.link(Link::kEarlyZPending, f, b + beats);
+      probe_.template split<4>(Stage::kZTest, b_next_, {f + kLookupLatency, filled_next, slots, b}, beats);
+      probe_.note(&PacketTimes::b, b);
     }
     b_next_ = b + beats;
     fifo(Fifo::kEarlyZPending).give(b_next_);
@@ -192,7 +226,9 @@ class RecurrenceCore {
     y_next_ = y_ + beats;
     fifo(Fifo::kEarlyZ).give(y_next_);
     if constexpr (Probe::kLooks) {
-      probe_.sink(b, y_, y_next_);
+      probe_.link(Link::kEarlyZ, b, y_next_);
+      probe_.burst_left(y_next_);
+      probe_.note(&PacketTimes::y, y_);
     }
     ++bursts_;
   }
@@ -208,7 +244,7 @@ class RecurrenceCore {
       const T out = later(resolve_next, out_.get(part.line));
       const T r = part.fetch ? later(out, fifo(Fifo::kFillBuffers).usable(sent)) : out;
       if constexpr (Probe::kLooks) {
-        probe_.request(moved, resolve_next, out, r, &part == &misses.back());
+        resolved(moved, resolve_next, out, r, &part == &misses.back());
       }
       last = r;
       resolve_next = r + 1;

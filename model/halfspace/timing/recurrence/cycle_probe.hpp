@@ -52,68 +52,57 @@ class CycleProbe {
     }
   }
 
-  void decide(Cycle cull_next, Cycle free, Cycle head, Cycle divider, Cycle decide) {
-    link(Link::kSetupQueue, cull_next - 1, decide + 1);
-    split<3>(Stage::kSetup, free, {head, divider, decide}, 1);
-    note(&PacketTimes::decide, decide);
-  }
+  // What the stages tell, each in the order of its packets. Terms are first cycles and exclusive ends.
 
-  void accept(Cycle decide, Cycle free, Cycle taken) {
-    link(Link::kSetup, decide, taken);
-    if (taken > free) {
-      split<2>(Stage::kTileWalker, free, {taken - 1, taken}, 0);
+  /// From `free` on the stage waited: for its first reason until cycle `until[0]`, then for its second until
+  /// until[1], ...; then it was busy.
+  template <std::size_t N>
+  void split(Stage which, Cycle free, const std::array<Cycle, N>& until, Cycle busy) {
+    StageCycles& cycles = stage(which);
+    Cycle at = free;
+    for (std::size_t i = 0; i < N; ++i) {
+      const Cycle to = std::max(at, until[i]);
+      cycles.stall[i] += to - at;
+      tell(which, i, at, to);
+      at = to;
     }
-    note(&PacketTimes::accept, taken - 1);
+    cycles.busy += busy;
+    tell(which, std::nullopt, at, at + busy);
   }
 
-  void emit(Cycle free, Cycle stepped, Cycle emitted, Cycle back) {
-    link(Link::kTileWalker, emitted - 1, back);
-    busy(Stage::kTileWalker, free, stepped);
-    wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emitted);
-    note(&PacketTimes::emit, emitted - 1);
+  void busy(Stage which, Cycle from, Cycle to) {
+    stage(which).busy += to - from;
+    tell(which, std::nullopt, from, to);
   }
 
-  void walked(Cycle free, Cycle done) { busy(Stage::kTileWalker, free, done); }
-
-  void edge(Cycle free, Cycle visible, Cycle e, Cycle back) {
-    link(Link::kEdgeEvaluator, e, back);
-    split<2>(Stage::kEdgeEvaluator, free, {visible, e}, 1);
-    note(&PacketTimes::e, e);
+  void wait(Stage which, std::size_t reason, Cycle from, Cycle to) {
+    stage(which).stall[reason] += to - from;
+    tell(which, reason, from, to);
   }
 
-  void quad(Cycle free, Cycle visible, Cycle g, Cycle beats) {
-    split<2>(Stage::kQuadGenerator, free, {visible, g}, beats);
-    note(&PacketTimes::g, g);
+  /// The next packet of `which` holds its credit.
+  void link(Link which, Cycle take, Cycle back) {
+    const auto i = static_cast<std::size_t>(which);
+    meter_[i].add(take, back);
+    here().held[i] += back - take;
+    ++here().packets[i];
+    if constexpr (kObserved) {
+      observer_->link(which, take, back);
+    }
   }
 
-  void lookup(Cycle g, Cycle free, Cycle visible, Cycle f, Cycle moved) {
-    link(Link::kQuadGenerator, g, moved);
-    split<2>(Stage::kZLookup, free, {visible, f}, moved - f);
-    note(&PacketTimes::f, f);
+  /// The next packet of a list of PacketTimes.
+  void note(std::vector<Cycle> PacketTimes::*stream, Cycle cycle) {
+    if (times_ != nullptr) {
+      (times_->*stream).push_back(cycle);
+    }
   }
 
-  /// A missing part that could be resolved from `ready` on was out of the cache from `out` on, and resolved
-  /// in `r`, when a fill buffer was free; of these cycles those count in which no beat moves any more, from
-  /// `moved` on. In that of the last part the next burst may be taken already: it is not this one's.
-  void request(Cycle moved, Cycle ready, Cycle out, Cycle r, bool last) {
-    const auto after = [moved](Cycle cycle) { return std::max(cycle, moved); };
-    wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
-    wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
-    wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(last ? r : r + 1));
-  }
-
-  void test(Cycle f, Cycle free, Cycle filled, Cycle slots, Cycle b, Cycle beats) {
-    link(Link::kEarlyZPending, f, b + beats);
-    split<4>(Stage::kZTest, free, {f + kLookupLatency, filled, slots, b}, beats);
-    note(&PacketTimes::b, b);
-  }
-
-  void sink(Cycle b, Cycle y, Cycle next) {
-    link(Link::kEarlyZ, b, next);
+  /// The last beat of a burst is in the sink in the cycle before `next`.
+  void burst_left(Cycle next) {
     if (in_draw_) {
       draws_.back().end = end_ = next - 1;
     }
-    note(&PacketTimes::y, y);
   }
 
   /// A line has come from memory, or gone there, in so many cycles before `end`.
@@ -155,32 +144,6 @@ class CycleProbe {
   [[nodiscard]] CycleStats& here() { return in_draw_ ? draws_.back().stats : outside_; }
   [[nodiscard]] StageCycles& stage(Stage which) { return here().stage[static_cast<std::size_t>(which)]; }
 
-  /// From `free` on the stage waited: for its first reason until cycle `until[0]`, then for its second until
-  /// until[1], ...; then it was busy.
-  template <std::size_t N>
-  void split(Stage which, Cycle free, const std::array<Cycle, N>& until, Cycle busy) {
-    StageCycles& cycles = stage(which);
-    Cycle at = free;
-    for (std::size_t i = 0; i < N; ++i) {
-      const Cycle to = std::max(at, until[i]);
-      cycles.stall[i] += to - at;
-      tell(which, i, at, to);
-      at = to;
-    }
-    cycles.busy += busy;
-    tell(which, std::nullopt, at, at + busy);
-  }
-
-  void busy(Stage which, Cycle from, Cycle to) {
-    stage(which).busy += to - from;
-    tell(which, std::nullopt, from, to);
-  }
-
-  void wait(Stage which, std::size_t reason, Cycle from, Cycle to) {
-    stage(which).stall[reason] += to - from;
-    tell(which, reason, from, to);
-  }
-
   void tell(Stage which, std::optional<std::size_t> reason, Cycle from, Cycle to) {
     if constexpr (kObserved) {
       if (from != to) {
@@ -192,22 +155,6 @@ class CycleProbe {
   void transfer(CycleObserver::Channel channel, Cycle cycles, Cycle end) {
     if constexpr (kObserved) {
       observer_->transfer(channel, end - cycles, end);
-    }
-  }
-
-  void link(Link which, Cycle take, Cycle back) {
-    const auto i = static_cast<std::size_t>(which);
-    meter_[i].add(take, back);
-    here().held[i] += back - take;
-    ++here().packets[i];
-    if constexpr (kObserved) {
-      observer_->link(which, take, back);
-    }
-  }
-
-  void note(std::vector<Cycle> PacketTimes::*stream, Cycle cycle) {
-    if (times_ != nullptr) {
-      (times_->*stream).push_back(cycle);
     }
   }
 

@@ -58,7 +58,7 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   }
   m.setup_interval = static_cast<std::uint64_t>(config.setup.interval);
   m.step_interval = static_cast<std::uint64_t>(config.tile_walker.step_interval);
-  m.edge_latency = static_cast<std::uint64_t>(edge_latency(config));
+  m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
   return m;
 }

@@ -56,21 +56,21 @@ class CreditLinkBase {
   TimedSignal* signal_ = nullptr;  ///< credits in use; null where not traced
 };
 
-/// A FIFO of the machine's shape. A packet can be seen `latency` cycles after the work on it began, and later
-/// where it is held back at `stalls`.
+/// A FIFO of the machine's shape. A packet can be seen the link's latency after the work on it began, or the
+/// cycle after it for a buffer, and later where it is held back.
 template <class Token>
 class CreditLink : public sc_core::sc_prim_channel,
                    public CreditOut<Token>,
                    public CreditIn<Token>,
                    public CreditLinkBase {
  public:
-  CreditLink(RunState& run, Fifo fifo, int latency, std::optional<StallPoint> stalls = {})
+  CreditLink(RunState& run, Fifo fifo)
       : sc_prim_channel((std::string(kFifoName[static_cast<std::size_t>(fifo)]) + "_fifo").c_str()),
         run_(run),
         fifo_(static_cast<std::size_t>(fifo)),
         capacity_(static_cast<std::size_t>(capacities(run.config)[fifo_])),
-        latency_(static_cast<Cycle>(latency)),
-        stalls_(stalls) {
+        latency_(static_cast<Cycle>(fifo_ < kLinks ? latency(static_cast<Link>(fifo), run.config) : 1)),
+        stalls_(fifo_ < kLinks ? kHeldBackAt[fifo_] : std::nullopt) {
     run.fifos[fifo_] = this;
   }
 

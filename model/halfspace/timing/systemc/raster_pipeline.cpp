@@ -5,7 +5,12 @@
 #include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
-#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/systemc/early_z.hpp"
+#include "halfspace/timing/systemc/edge_evaluator.hpp"
+#include "halfspace/timing/systemc/quad_generator.hpp"
+#include "halfspace/timing/systemc/setup.hpp"
+#include "halfspace/timing/systemc/sink.hpp"
+#include "halfspace/timing/systemc/tile_walker.hpp"
 
 namespace halfspace::systemc {
 namespace {
@@ -20,38 +25,70 @@ std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
   return DepthLayout(surfaces, place_surfaces(surfaces, config), config.z_cache.parts, 0).end();
 }
 
+/// The units and the links between them, in the order of the pipe. A new unit is a link and a member here,
+/// its ports bound, and begin_frame() called.
+struct RasterPipeline::Units {
+  Units(RunState& run, FrameControl& control, std::uint64_t base)
+      : setup_link(run, Fifo::kSetup),
+        walker_link(run, Fifo::kTileWalker),
+        edge_link(run, Fifo::kEdgeEvaluator),
+        quad_link(run, Fifo::kQuadGenerator),
+        early_z_link(run, Fifo::kEarlyZ),
+        source("source", run, control),
+        setup("setup", run),
+        walker("tile_walker", run),
+        edge_evaluator("edge_evaluator", run),
+        quad_generator("quad_generator", run),
+        early_z("early_z", run, base),
+        sink("sink", run) {
+    source.out(setup);
+    source.depth(early_z.control);
+    setup.out(setup_link);
+    walker.in(setup_link);
+    walker.out(walker_link);
+    edge_evaluator.in(walker_link);
+    edge_evaluator.out(edge_link);
+    quad_generator.in(edge_link);
+    quad_generator.out(quad_link);
+    early_z.lookup.in(quad_link);
+    early_z.test.out(early_z_link);
+    sink.in(early_z_link);
+  }
+
+  void begin_frame() {
+    setup.begin_frame();
+    walker.begin_frame();
+    edge_evaluator.begin_frame();
+    quad_generator.begin_frame();
+    early_z.begin_frame();
+    sink.begin_frame();
+  }
+
+  CreditLink<TriangleToken> setup_link;
+  CreditLink<JobToken> walker_link;
+  CreditLink<CoverageToken> edge_link;
+  CreditLink<BurstToken> quad_link;
+  CreditLink<TestedToken> early_z_link;
+  Source source;
+  Setup setup;
+  TileWalker walker;
+  EdgeEvaluator edge_evaluator;
+  QuadGenerator quad_generator;
+  EarlyZ early_z;
+  Sink sink;
+};
+
 RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base)
     : sc_module(name),
       commands("commands"),
       memory("memory"),
       run_(config),
-      setup_link_(run_, Fifo::kSetup, kSetupDivideLatency, StallPoint::kSetup),
-      walker_link_(run_, Fifo::kTileWalker, kWalkerLatency, StallPoint::kTileWalker),
-      edge_link_(run_, Fifo::kEdgeEvaluator, edge_latency(config), StallPoint::kEdgeEvaluator),
-      quad_link_(run_, Fifo::kQuadGenerator, kQuadLatency, StallPoint::kQuadGenerator),
-      early_z_link_(run_, Fifo::kEarlyZ, kTestLatency, StallPoint::kSink),
-      source_("source", run_, *this),
-      setup_("setup", run_),
-      walker_("tile_walker", run_),
-      edge_evaluator_("edge_evaluator", run_),
-      quad_generator_("quad_generator", run_),
-      early_z_("early_z", run_, base),
-      sink_("sink", run_) {
+      units_(std::make_unique<Units>(run_, static_cast<FrameControl&>(*this), base)) {
   commands.register_b_transport(this, &RasterPipeline::transport);
-  source_.out(setup_);
-  source_.depth(early_z_.control);
-  setup_.out(setup_link_);
-  walker_.in(setup_link_);
-  walker_.out(walker_link_);
-  edge_evaluator_.in(walker_link_);
-  edge_evaluator_.out(edge_link_);
-  quad_generator_.in(edge_link_);
-  quad_generator_.out(quad_link_);
-  early_z_.lookup.in(quad_link_);
-  early_z_.test.out(early_z_link_);
-  sink_.in(early_z_link_);
-  early_z_.cache.memory.socket.bind(memory);
+  units_->early_z.cache.memory.socket.bind(memory);
 }
+
+RasterPipeline::~RasterPipeline() = default;
 
 void RasterPipeline::bind_frame(const Frame& frame, const EngineOptions& options) {
   run_.frame = &frame;
@@ -90,16 +127,11 @@ void RasterPipeline::begin_frame() {
   for (StageMeter* const meter : run_.meters) {
     meter->begin_frame();
   }
-  setup_.begin_frame();
-  walker_.begin_frame();
-  edge_evaluator_.begin_frame();
-  quad_generator_.begin_frame();
-  early_z_.begin_frame();
-  sink_.begin_frame();
+  units_->begin_frame();
 }
 
 Cycle RasterPipeline::idle_from() const {
-  Cycle from = sink_.next();
+  Cycle from = units_->sink.next();
   for (const StageMeter* const meter : run_.meters) {
     from = std::max(from, meter->next());
   }
@@ -120,7 +152,7 @@ void RasterPipeline::end_frame(Cycle cycles) {
 
 TimedResult RasterPipeline::take_result() {
   for (std::size_t i = 0; i < run_.result.surfaces.size(); ++i) {
-    early_z_.read_surface(static_cast<std::uint32_t>(i), run_.result.surfaces[i].codes);
+    units_->early_z.read_surface(static_cast<std::uint32_t>(i), run_.result.surfaces[i].codes);
   }
   return {.frame = std::move(run_.result), .cycles = cycles_, .times = std::move(run_.times)};
 }
@@ -129,13 +161,13 @@ void RasterPipeline::check() {
   if (run_.error) {
     std::rethrow_exception(run_.error);
   }
-  if (!source_.idle()) {
+  if (!units_->source.idle()) {
     throw DeadlockError("deadlock in cycle " + std::to_string(run_.clock.now()) + "\n" + describe());
   }
 }
 
 std::string RasterPipeline::describe() {
-  std::string text = "stage source: " + source_.describe() + "\n";
+  std::string text = "stage source: " + units_->source.describe() + "\n";
   for (const StageMeter* const meter : run_.meters) {
     text += "stage " + meter->name() + ": " + meter->describe() + "\n";
   }
@@ -197,14 +229,14 @@ tlm::tlm_response_status RasterPipeline::write_register(std::uint64_t address, s
     if (value >= count) {
       return tlm::TLM_GENERIC_ERROR_RESPONSE;
     }
-    source_.submit(value);
+    units_->source.submit(value);
   } else if (address == registers::kSubmitFrame) {
     for (std::uint32_t i = 0; i < count; ++i) {
-      source_.submit(i);
+      units_->source.submit(i);
     }
   } else {
-    source_.submit_end();
-    source_.wait_until_idle();
+    units_->source.submit_end();
+    units_->source.wait_until_idle();
   }
   return tlm::TLM_OK_RESPONSE;
 }
@@ -212,10 +244,10 @@ tlm::tlm_response_status RasterPipeline::write_register(std::uint64_t address, s
 tlm::tlm_response_status RasterPipeline::read_register(std::uint64_t address, std::uint32_t& value) const {
   switch (address) {
     case registers::kStatus:
-      value = (source_.idle() ? 0u : 1u) | (bound_ ? 2u : 0u);
+      value = (units_->source.idle() ? 0u : 1u) | (bound_ ? 2u : 0u);
       return tlm::TLM_OK_RESPONSE;
     case registers::kCommandsDone:
-      value = source_.commands_done();
+      value = units_->source.commands_done();
       return tlm::TLM_OK_RESPONSE;
     case registers::kCyclesLow:
       value = static_cast<std::uint32_t>(cycles_.cycles);

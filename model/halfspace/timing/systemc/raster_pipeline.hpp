@@ -11,13 +11,9 @@
 #include <vector>
 
 #include "halfspace/timing/engine.hpp"
-#include "halfspace/timing/systemc/early_z.hpp"
-#include "halfspace/timing/systemc/edge_evaluator.hpp"
-#include "halfspace/timing/systemc/quad_generator.hpp"
-#include "halfspace/timing/systemc/setup.hpp"
-#include "halfspace/timing/systemc/sink.hpp"
+#include "halfspace/timing/systemc/run_state.hpp"
 #include "halfspace/timing/systemc/source.hpp"
-#include "halfspace/timing/systemc/tile_walker.hpp"
+#include "halfspace/timing/systemc/timed_signal.hpp"
 
 namespace halfspace::systemc {
 
@@ -52,6 +48,9 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   /// `config` need not be valid as a whole: one that cannot work is found by check(). Depth lies in memory
   /// from address `base` on; see DepthLayout.
   RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base = 0);
+  RasterPipeline(const RasterPipeline&) = delete;
+  RasterPipeline& operator=(const RasterPipeline&) = delete;
+  ~RasterPipeline() override;
 
   tlm_utils::simple_target_socket<RasterPipeline> commands;
   tlm::tlm_initiator_socket<> memory;
@@ -81,19 +80,10 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   tlm::tlm_response_status read_register(std::uint64_t address, std::uint32_t& value) const;
   [[nodiscard]] std::string describe();
 
+  struct Units;
+
   RunState run_;
-  CreditLink<TriangleToken> setup_link_;
-  CreditLink<JobToken> walker_link_;
-  CreditLink<CoverageToken> edge_link_;
-  CreditLink<BurstToken> quad_link_;
-  CreditLink<TestedToken> early_z_link_;
-  Source source_;
-  Setup setup_;
-  TileWalker walker_;
-  EdgeEvaluator edge_evaluator_;
-  QuadGenerator quad_generator_;
-  EarlyZ early_z_;
-  Sink sink_;
+  std::unique_ptr<Units> units_;
   Watch watch_;
   FrameCycles cycles_;  ///< of the frame that ended last
   bool bound_ = false;

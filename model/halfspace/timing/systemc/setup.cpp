@@ -8,11 +8,7 @@
 namespace halfspace::systemc {
 
 Setup::Setup(const sc_core::sc_module_name& name, RunState& run)
-    : sc_module(name),
-      out("out"),
-      run_(run),
-      meter_(Stage::kSetup, run),
-      queue_(run, Fifo::kSetupQueue, kSetupCullLatency) {
+    : sc_module(name), out("out"), run_(run), meter_(Stage::kSetup, run), queue_(run, Fifo::kSetupQueue) {
   SC_THREAD(decide);
 }
 

@@ -7,9 +7,9 @@ namespace halfspace::systemc {
 ZCacheState::ZCacheState(RunState& state, std::uint64_t base_address)
     : run(state),
       base(base_address),
-      pending(state, Fifo::kEarlyZPending, kLookupLatency),
-      fill_buffers(state, Fifo::kFillBuffers, 1),
-      write_buffers(state, Fifo::kWriteBuffers, 1) {}
+      pending(state, Fifo::kEarlyZPending),
+      fill_buffers(state, Fifo::kFillBuffers),
+      write_buffers(state, Fifo::kWriteBuffers) {}
 
 void ZCacheState::begin_frame() {
   const ZCacheShape shape = z_cache_shape(run.config);
