@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter  # noqa: E402
 
-SCHEMA = ("halfspace-error", 1)
+SCHEMA = ("halfspace-error", 2)
 # Fidelity: marker, colour (of Okabe and Ito, which the colour-blind can tell apart).
 STYLE = {
     "functional": ("D", "#999999"),

@@ -280,7 +280,7 @@ TEST_CASE("error table: files, which are the same for the same table, and replac
   }
   const auto json = nlohmann::json::parse(before);
   CHECK(json["schema"] == "halfspace-error");
-  CHECK(json["schema_version"] == 1);
+  CHECK(json["schema_version"] == 2);
   CHECK(json["config_hash"] == config_hash(Config{}));
   CHECK(json["files"] == nlohmann::json{"error.md", "error.csv", "error.json"});
   const auto& lines = json["workloads"][0]["fidelities"];

@@ -17,7 +17,7 @@ namespace halfspace {
 
 inline constexpr const char* kErrorFile = "error.json";
 inline constexpr const char* kErrorSchema = "halfspace-error";
-inline constexpr int kErrorSchemaVersion = 1;
+inline constexpr int kErrorSchemaVersion = 2;
 
 /// A fidelity on a frame, as it ran.
 struct FidelityRun : RunResult {

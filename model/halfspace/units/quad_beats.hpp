@@ -50,8 +50,8 @@ std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& pas
     beat.passed[place] = quad_bits<TileSize>(passed, quad.x, quad.y);
     for (int sample = 0; sample < 4; ++sample) {
       if ((quad.mask >> sample & 1) != 0) {
-        beat.depth[4 * place + static_cast<std::size_t>(sample)] =
-            codes[static_cast<std::size_t>((quad.y + sample / 2) * TileSize + quad.x + sample % 2)];
+        const int at = (quad.y + sample / 2) * TileSize + quad.x + sample % 2;
+        beat.depth[4 * place + static_cast<std::size_t>(sample)] = codes[static_cast<std::size_t>(at)];
       }
     }
   });
