@@ -5,16 +5,17 @@ endif()
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  # What ccache asks for where headers are precompiled.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
-  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
 endif()
 
+# The presets set CMAKE_UNITY_BUILD: files of a target are compiled eight at a time, since headers and templates take most
+# of the compiler's time. Names of their own must differ too.
 if(HALFSPACE_SANITIZE)
   # AddressSanitizer sees null pointers and ends of objects too; checks of them cost a third of the compiler's time.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize=null,object-size,vptr -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(HWY_COMPILE_ONLY_STATIC)  # lanes for one processor
 endif()
 if(HALFSPACE_COVERAGE)
   add_compile_options(--coverage -fprofile-update=atomic)

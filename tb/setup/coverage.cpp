@@ -12,7 +12,7 @@ namespace halfspace::tb {
 namespace {
 
 constexpr std::array<const char*, 5> kDecisions = {"dropped", "drawn", "no_triangle", "divider", "no_credit"};
-constexpr std::array<const char*, 5> kFormats = {"none", "unorm16", "unorm24", "", "float32"};
+constexpr std::array<const char*, 5> kFormatNames = {"none", "unorm16", "unorm24", "", "float32"};
 constexpr std::array<const char*, 7> kVerdicts = {"drawn",     "zero_area", "culled_front", "culled_back",
                                                   "no_sample", "outside",   "empty"};
 constexpr std::array<const char*, 3> kSpans = {"tile", "block", "blocks"};
@@ -21,20 +21,20 @@ constexpr std::array<const char*, 2> kRules = {"top_left", "bottom_left"};
 constexpr std::array<const char*, 5> kDepths = {"equal", "first_least", "first_most", "first_middle", "ties"};
 
 std::string verdict_bin(std::size_t verdict, std::size_t format) {
-  return fmt::format("verdict {} format {}", kVerdicts[verdict], kFormats[format]);
+  return fmt::format("verdict {} format {}", kVerdicts[verdict], kFormatNames[format]);
 }
 std::string order_bin(bool turned, std::size_t first, bool bottom_left_rule) {
   return fmt::format("turned {:d} first {} rule {}", turned, first, kRules[bottom_left_rule ? 1 : 0]);
 }
 std::string size_bin(std::size_t span, std::size_t shift, std::size_t format) {
-  return fmt::format("span {} shift {} format {}", kSpans[span], kSigns[shift], kFormats[format]);
+  return fmt::format("span {} shift {} format {}", kSpans[span], kSigns[shift], kFormatNames[format]);
 }
 std::string edge_bin(std::size_t side, bool flat_top, bool bottom_left_rule) {
   return fmt::format("edge0 a {} top {} rule {}", kSigns[side], flat_top ? "flat" : "pointed",
                      kRules[bottom_left_rule ? 1 : 0]);
 }
 std::string depth_bin(std::size_t depths, std::size_t format) {
-  return fmt::format("depths {} format {}", kDepths[depths], kFormats[format]);
+  return fmt::format("depths {} format {}", kDepths[depths], kFormatNames[format]);
 }
 
 std::size_t sign_of(std::int64_t value) { return value < 0 ? 0 : value == 0 ? 1 : 2; }

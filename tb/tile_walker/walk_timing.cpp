@@ -7,7 +7,7 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr std::uint64_t kLatency = 2;  // from the step to visible
+constexpr std::uint64_t kStepLatency = 2;  // from the step to visible
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void WalkTiming::give_out(std::uint64_t cycle) {
   triangle_->waited = false;
   triangle_->drawn = true;
   --credits_;
-  visible_at_.push_back(cycle + kLatency);
+  visible_at_.push_back(cycle + kStepLatency);
   triangle_->first = triangle_->job + 1;
   next_job(cycle);
 }

@@ -12,12 +12,12 @@ using namespace halfspace::test;
 
 namespace {
 
-struct Case {
+struct CameraRule {
   std::function<void(Mesh&, Camera&)> change;
   std::string error;
 };
 
-const Case kCases[] = {
+const CameraRule kCameraRules[] = {
     {[](Mesh&, Camera& c) { c.fov_degrees = 0; }, "f: camera fov is 0; legal: above 0 and below 180 degrees"},
     {[](Mesh&, Camera& c) { c.fov_degrees = 180; },
      "f: camera fov is 180; legal: above 0 and below 180 degrees"},
@@ -54,7 +54,7 @@ const Case kCases[] = {
 }  // namespace
 
 TEST_CASE("cameras and meshes that make no picture are refused") {
-  for (const Case& rule : kCases) {
+  for (const CameraRule& rule : kCameraRules) {
     Mesh mesh;
     mesh.positions.assign(kCubeCorners.begin(), kCubeCorners.end());
     mesh.indices = cube_indices();

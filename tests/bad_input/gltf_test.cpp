@@ -12,14 +12,14 @@ using nlohmann::json;
 
 namespace {
 
-struct Case {
+struct GltfRule {
   std::function<void(json&)> change;
   std::string error;
 };
 
 json& primitive(json& j) { return j["meshes"][0]["primitives"][0]; }
 
-const Case kCases[] = {
+const GltfRule kGltfRules[] = {
     {[](json& j) { j.erase("asset"); }, "f: glTF has no asset; legal: an object with a version"},
     {[](json& j) { j["asset"] = json::object(); }, "f: asset.version is missing; legal: \"2.0\""},
     {[](json& j) { j["asset"]["version"] = "1.0"; }, "f: asset.version is \"1.0\"; legal: \"2.0\""},
@@ -126,7 +126,7 @@ std::string error_of_gltf(const std::string& text) {
 
 TEST_CASE("glTF files that contradict themselves are refused") {
   CHECK(error_of_gltf(cube_gltf().dump()) == "no error");
-  for (const Case& rule : kCases) {
+  for (const GltfRule& rule : kGltfRules) {
     json j = cube_gltf();
     rule.change(j);
     INFO(rule.error);

@@ -11,14 +11,14 @@ using namespace halfspace::test;
 
 namespace {
 
-std::string plain() { return as_text(format_ptf(small_frame())); }
+std::string plain_ptf() { return as_text(format_ptf(small_frame())); }
 
 std::string error_of_bytes(std::string_view bytes) {
   return error_of([&] { return parse_ptf(as_bytes(bytes), "f"); });
 }
 
 std::string with_word(std::size_t at, std::uint32_t value) {
-  std::string bytes = plain();
+  std::string bytes = plain_ptf();
   std::memcpy(bytes.data() + at, &value, 4);
   return bytes;
 }
@@ -32,7 +32,7 @@ constexpr std::size_t kMeta = kIndices + 6 * 4;
 }  // namespace
 
 TEST_CASE("a PTF1 file cut short anywhere is refused") {
-  const std::string bytes = plain();
+  const std::string bytes = plain_ptf();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     INFO(size);
     CHECK(error_of_bytes(std::string_view(bytes).substr(0, size)) != "no error");
@@ -53,7 +53,7 @@ TEST_CASE("a PTF1 file cut short anywhere is refused") {
 }
 
 TEST_CASE("any one byte changed gives a valid frame or an InputError") {
-  const std::string bytes = plain();
+  const std::string bytes = plain_ptf();
   for (std::size_t at = 0; at < bytes.size(); ++at) {
     for (const int change : {0x01, 0x02, 0x10, 0x40, 0x80, 0x7F, 0xFF}) {
       std::string damaged = bytes;

@@ -13,7 +13,7 @@ using namespace halfspace::test;
 
 namespace {
 
-struct Case {
+struct FrameRule {
   std::function<void(Frame&)> change;
   std::string error;
 };
@@ -29,7 +29,7 @@ const std::string kTarget0 = "small: target 0: ";
 const std::string kClear = "small: command 0 (clear): ";
 const std::string kDraw = "small: command 1 (draw): ";
 
-const Case kCases[] = {
+const FrameRule kFrameRules[] = {
     // Targets.
     {[](Frame& f) { target(f).width = 0; }, kTarget0 + "width is 0; legal: 1 to 16384"},
     {[](Frame& f) { target(f).width = 16385; }, kTarget0 + "width is 16385; legal: 1 to 16384"},
@@ -106,7 +106,7 @@ const Case kCases[] = {
 
 TEST_CASE("each rule of a frame names the place, the value and what is legal") {
   CHECK_NOTHROW(validate(small_frame()));
-  for (const Case& rule : kCases) {
+  for (const FrameRule& rule : kFrameRules) {
     Frame frame = small_frame();
     rule.change(frame);
     CHECK(error_of([&] {
@@ -142,7 +142,7 @@ TEST_CASE("what looks odd but is legal") {
   CHECK_NOTHROW(validate(frame));
 }
 
-TEST_CASE("the triangles of all draws together are limited") {
+TEST_CASE("the triangles of all draws together are limited", "[exhaustive]") {
   Frame frame;
   frame.name = "many";
   frame.targets = {{.width = 1, .height = 1, .samples = 1}};

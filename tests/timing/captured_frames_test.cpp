@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A frame that ships or is captured; ends the test as skipped where it is absent.
-Frame load_frame(const std::string& name) {
+Frame captured_frame(const std::string& name) {
   for (const char* folder : {HALFSPACE_SCENES, HALFSPACE_FRAMES}) {
     const fs::path path = fs::path(folder) / (name + ".ptf.xz");
     if (fs::exists(path)) {
@@ -60,7 +60,7 @@ bool same_counts(const Counters& a, const Counters& b) {
 }
 
 void check_frame(const std::string& name) {
-  const Frame frame = load_frame(name);
+  const Frame frame = captured_frame(name);
   const FrameResult base = run_functional(frame, Config{});
   for (const char* machine : {"baseline", "small", "wide", "shallow", "slow_memory"}) {
     INFO(name << " on " << machine);

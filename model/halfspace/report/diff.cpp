@@ -17,7 +17,7 @@ namespace halfspace {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using StatsJson = nlohmann::json;
 
 /// One field of a record, or the whole element of a plain array.
 struct Field {
@@ -169,9 +169,9 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
   return difference.count == 0 ? std::nullopt : std::optional(difference);
 }
 
-Json read_stats(const fs::path& folder) {
+StatsJson read_stats(const fs::path& folder) {
   std::ifstream file(folder / kStatsFile);
-  Json stats = Json::parse(file, nullptr, false);
+  StatsJson stats = StatsJson::parse(file, nullptr, false);
   if (!stats.is_object() || stats.value("schema", "") != kStatsSchema ||
       stats.value("schema_version", 0) != kStatsSchemaVersion || !stats["files"].is_array()) {
     throw InputError(fmt::format("{}: is not the result of a run (no {} of schema {} version {})",
@@ -181,20 +181,20 @@ Json read_stats(const fs::path& folder) {
 }
 
 /// Time is compared where both have as much of it: none, an estimate, or that of every packet.
-int time_detail(const Json& stats) {
-  const Json time = stats.value("frame", Json::object()).value("time", Json());
+int time_detail(const StatsJson& stats) {
+  const StatsJson time = stats.value("frame", StatsJson::object()).value("time", StatsJson());
   return time.is_null() ? 0 : time.contains("stages") ? 2 : 1;
 }
 
-void remove_time(Json& stats) {
+void remove_time(StatsJson& stats) {
   stats.erase("cycles");
   stats["frame"].erase("time");
-  for (Json& draw : stats["draws"]) {
+  for (StatsJson& draw : stats["draws"]) {
     draw.erase("time");
   }
 }
 
-std::optional<FileDifference> compare_stats(Json a, Json b, bool with_time) {
+std::optional<FileDifference> compare_stats(StatsJson a, StatsJson b, bool with_time) {
   if (!with_time) {
     remove_time(a);
     remove_time(b);
@@ -202,11 +202,11 @@ std::optional<FileDifference> compare_stats(Json a, Json b, bool with_time) {
   std::uint64_t count = 0;
   std::string first;
   for (const char* part : {"frame", "surfaces", "draws", "cycles"}) {
-    for (const Json& step : Json::diff(a[part], b[part])) {
+    for (const StatsJson& step : StatsJson::diff(a[part], b[part])) {
       const std::string path = step["path"].get<std::string>();
       if (count++ == 0) {
-        const Json::json_pointer at(path);
-        const auto text = [&](const Json& json) {
+        const StatsJson::json_pointer at(path);
+        const auto text = [&](const StatsJson& json) {
           return json.contains(at) ? json[at].dump() : std::string("nothing");
         };
         first = fmt::format("{}{}: {} and {}", part, path, text(a[part]), text(b[part]));
@@ -219,9 +219,9 @@ std::optional<FileDifference> compare_stats(Json a, Json b, bool with_time) {
 /// Packets come first: where they differ, everything else does too.
 int rank(const std::string& file) { return file == "quads.npy" ? 0 : file == "tiles.npy" ? 1 : 2; }
 
-std::set<std::string> arrays_of(const Json& stats) {
+std::set<std::string> arrays_of(const StatsJson& stats) {
   std::set<std::string> names;
-  for (const Json& file : stats["files"]) {
+  for (const StatsJson& file : stats["files"]) {
     if (file.is_string() && file.get<std::string>().ends_with(".npy")) {
       names.insert(file.get<std::string>());
     }
@@ -232,8 +232,8 @@ std::set<std::string> arrays_of(const Json& stats) {
 }  // namespace
 
 ResultDifference compare_results(const fs::path& a, const fs::path& b) {
-  const Json a_stats = read_stats(a);
-  const Json b_stats = read_stats(b);
+  const StatsJson a_stats = read_stats(a);
+  const StatsJson b_stats = read_stats(b);
   const std::set<std::string> a_files = arrays_of(a_stats);
   const std::set<std::string> b_files = arrays_of(b_stats);
   const bool with_time = time_detail(a_stats) == time_detail(b_stats);

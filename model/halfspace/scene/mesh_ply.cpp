@@ -89,7 +89,7 @@ struct Header {
 };
 
 template <typename... Args>
-[[noreturn]] void fail(std::string_view name, fmt::format_string<Args...> text, Args&&... args) {
+[[noreturn]] void refuse(std::string_view name, fmt::format_string<Args...> text, Args&&... args) {
   throw InputError(fmt::format("{}: {}", name, fmt::format(text, std::forward<Args>(args)...)));
 }
 
@@ -127,12 +127,12 @@ class HeaderParser {
   HeaderParser(std::string_view name, std::string_view text) : name_(name), text_(text) {}
 
   Header run() {
-    if (text_.next_line() != "ply") fail(name_, "does not start with a line \"ply\"; legal: a PLY header");
+    if (text_.next_line() != "ply") refuse(name_, "does not start with a line \"ply\"; legal: a PLY header");
     for (;;) {
       ++line_;
       const std::optional<std::string_view> line = text_.next_line();
       if (!line)
-        fail(name_, "header ends without \"end_header\" after {} lines; legal: a whole header", line_);
+        refuse(name_, "header ends without \"end_header\" after {} lines; legal: a whole header", line_);
       Text words(*line);
       const std::string_view keyword = words.next_word();
       if (keyword == "end_header") break;
@@ -143,12 +143,13 @@ class HeaderParser {
       } else if (keyword == "property") {
         parse_property(words);
       } else if (keyword != "comment" && keyword != "obj_info") {
-        fail(name_,
-             "header line {} starts with {}; legal: format, element, property, comment, obj_info, end_header",
-             line_, quote(keyword));
+        refuse(
+            name_,
+            "header line {} starts with {}; legal: format, element, property, comment, obj_info, end_header",
+            line_, quote(keyword));
       }
     }
-    if (!header_.encoding) fail(name_, "header has no format line; legal: one");
+    if (!header_.encoding) refuse(name_, "header has no format line; legal: one");
     return std::move(header_);
   }
 
@@ -164,8 +165,8 @@ class HeaderParser {
     } else if (encoding == "binary_big_endian") {
       header_.encoding = Encoding::kBigEndian;
     } else {
-      fail(name_, "header line {}: format is {}; legal: ascii, binary_little_endian, binary_big_endian",
-           line_, quote(encoding));
+      refuse(name_, "header line {}: format is {}; legal: ascii, binary_little_endian, binary_big_endian",
+             line_, quote(encoding));
     }
   }
 
@@ -176,28 +177,28 @@ class HeaderParser {
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (element.name.empty() || error != std::errc() || end != count.data() + count.size() ||
         element.count > std::numeric_limits<std::uint32_t>::max()) {
-      fail(name_, "header line {}: element {} has count {}; legal: a name and 0 to {}", line_,
-           quote(element.name), quote(count), std::numeric_limits<std::uint32_t>::max());
+      refuse(name_, "header line {}: element {} has count {}; legal: a name and 0 to {}", line_,
+             quote(element.name), quote(count), std::numeric_limits<std::uint32_t>::max());
     }
     header_.elements.push_back(std::move(element));
   }
 
   void parse_property(Text& words) {
     if (header_.elements.empty()) {
-      fail(name_, "header line {} is a property before any element; legal: after one", line_);
+      refuse(name_, "header line {} is a property before any element; legal: after one", line_);
     }
     std::vector<Property>& properties = header_.elements.back().properties;
     if (properties.size() == kMaxProperties) {
-      fail(name_, "header line {} is property {} of its element; legal: at most {}", line_,
-           kMaxProperties + 1, kMaxProperties);
+      refuse(name_, "header line {} is property {} of its element; legal: at most {}", line_,
+             kMaxProperties + 1, kMaxProperties);
     }
     Property property;
     std::string_view type = words.next_word();
     if (type == "list") {
       property.count_type = parse_type(words.next_word());
       if (is_float(*property.count_type)) {
-        fail(name_, "header line {}: list is counted in a floating-point type; legal: an integer type",
-             line_);
+        refuse(name_, "header line {}: list is counted in a floating-point type; legal: an integer type",
+               line_);
       }
       type = words.next_word();
     }
@@ -210,7 +211,7 @@ class HeaderParser {
     const auto* const found = std::find_if(kTypeNames.begin(), kTypeNames.end(),
                                            [&](const TypeName& candidate) { return candidate.name == word; });
     if (found == kTypeNames.end()) {
-      fail(name_, "header line {}: type is {}; legal: char to double, int8 to float64", line_, quote(word));
+      refuse(name_, "header line {}: type is {}; legal: char to double, int8 to float64", line_, quote(word));
     }
     return found->type;
   }
@@ -237,9 +238,9 @@ class Body {
     // The last number of a text needs no separator.
     const std::uint64_t left = encoding_ == Encoding::kAscii ? text_.rest().size() + 1 : bytes_.size();
     if (element.count * least > left) {
-      fail(name_,
-           "element {} has {} records of {} bytes or more, the file {} bytes for them; legal: all within",
-           quote(element.name), element.count, least, left);
+      refuse(name_,
+             "element {} has {} records of {} bytes or more, the file {} bytes for them; legal: all within",
+             quote(element.name), element.count, least, left);
     }
   }
 
@@ -250,8 +251,8 @@ class Body {
     const double value = next(type);
     if (!(value >= static_cast<double>(low) && value <= static_cast<double>(high)) ||
         value != std::floor(value)) {
-      fail(name_, "property {} has the value {}; legal: an integer from {} to {}", quote(property.name),
-           value, low, high);
+      refuse(name_, "property {} has the value {}; legal: an integer from {} to {}", quote(property.name),
+             value, low, high);
     }
     return static_cast<std::int64_t>(value);
   }
@@ -263,16 +264,16 @@ class Body {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (whole.empty()) fail(name_, "body ends too early; legal: all the records of the header");
+    if (whole.empty()) refuse(name_, "body ends too early; legal: all the records of the header");
     if (error != std::errc() || end != word.data() + word.size()) {
-      fail(name_, "body has {}; legal: a number", quote(whole));
+      refuse(name_, "body has {}; legal: a number", quote(whole));
     }
     return value;
   }
 
   template <typename T>
   double take() {
-    if (bytes_.size() < sizeof(T)) fail(name_, "body ends too early; legal: all the records of the header");
+    if (bytes_.size() < sizeof(T)) refuse(name_, "body ends too early; legal: all the records of the header");
     std::array<char, sizeof(T)> raw{};
     std::memcpy(raw.data(), bytes_.data(), sizeof(T));
     bytes_.remove_prefix(sizeof(T));
@@ -331,7 +332,7 @@ class BodyParser {
   Mesh run() {
     for (const Element& element : header_.elements) {
       if (element.properties.empty() && element.count > 0) {
-        fail(name_, "element {} has no property; legal: one or more", quote(element.name));
+        refuse(name_, "element {} has no property; legal: one or more", quote(element.name));
       }
       body_.check_room(element);
       if (element.name == "vertex") {
@@ -375,11 +376,11 @@ class BodyParser {
   }
 
   void parse_vertices(const Element& element) {
-    if (!mesh_.positions.empty()) fail(name_, "header has a second element \"vertex\"; legal: one");
+    if (!mesh_.positions.empty()) refuse(name_, "header has a second element \"vertex\"; legal: one");
     const std::array<std::size_t, 3> axes{find(element, "x", false), find(element, "y", false),
                                           find(element, "z", false)};
     if (*std::max_element(axes.begin(), axes.end()) == element.properties.size()) {
-      fail(name_, "element \"vertex\" lacks x, y or z; legal: all three, not lists");
+      refuse(name_, "element \"vertex\" lacks x, y or z; legal: all three, not lists");
     }
     check_mesh_size(name_, element.count, 0);
     mesh_.positions.reserve(element.count);
@@ -401,7 +402,7 @@ class BodyParser {
     std::size_t corners = find(element, "vertex_indices", true);
     if (corners == element.properties.size()) corners = find(element, "vertex_index", true);
     if (corners == element.properties.size() || is_float(element.properties[corners].type)) {
-      fail(name_, "element \"face\" has no list of integers vertex_indices or vertex_index; legal: one");
+      refuse(name_, "element \"face\" has no list of integers vertex_indices or vertex_index; legal: one");
     }
     std::uint64_t triangles = faces_.corners.size();  // an upper bound, for a second element "face"
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -412,7 +413,7 @@ class BodyParser {
           continue;
         }
         const std::uint32_t count = next_count(property);
-        if (count < 3) fail(name_, "face {} has {} corners; legal: 3 or more", i, count);
+        if (count < 3) refuse(name_, "face {} has {} corners; legal: 3 or more", i, count);
         triangles += count - 2;
         check_mesh_size(name_, 0, triangles);
         faces_.sizes.push_back(count);
@@ -431,12 +432,12 @@ class BodyParser {
       first += polygon.size();
       for (const std::uint32_t corner : polygon) {
         if (corner >= mesh_.positions.size()) {
-          fail(name_, "face {} has vertex {}; legal: below {}", i, corner, mesh_.positions.size());
+          refuse(name_, "face {} has vertex {}; legal: below {}", i, corner, mesh_.positions.size());
         }
       }
       if (!triangulate(polygon, mesh_.positions, mesh_.indices)) {
-        fail(name_, "face {} is not convex and has {} corners; legal: at most {}", i, polygon.size(),
-             kMaxConcaveCorners);
+        refuse(name_, "face {} is not convex and has {} corners; legal: at most {}", i, polygon.size(),
+               kMaxConcaveCorners);
       }
     }
   }
