@@ -62,4 +62,4 @@ void change_bytes(std::size_t step) {
 
 TEST_CASE("any byte of a frame may change", "[exhaustive]") { change_bytes(1); }
 
-TEST_CASE("every 23rd byte of a frame may change") { change_bytes(23); }
+TEST_CASE("every 47th byte of a frame may change") { change_bytes(47); }

@@ -213,14 +213,15 @@ TEST_CASE("sliver: 1000 pixels long and less than one wide, in all directions") 
   CHECK(steep == Approx(count / 2).margin(4 * std::sqrt(count) / 2));  // of 4 standard deviations
 }
 
-TEST_CASE(
-    "tiny_grid covers its rows without a gap and without overdraw; fill covers every pixel in each layer") {
+TEST_CASE("tiny_grid covers its rows without a gap and without overdraw") {
   const FrameResult grid = run_functional(synthetic_frame("tiny_grid"), Config{});
   const std::uint64_t fragments = grid.counters.quad_generator.fragments;
   CHECK(pixels_covered(grid) == fragments);
   CHECK(static_cast<double>(fragments) == Approx(1920 * 10 * 2.16).epsilon(0.01));
   CHECK(fragments == grid.counters.early_z.survivors);
+}
 
+TEST_CASE("fill covers every pixel in each layer", "[exhaustive]") {
   const FrameResult front = run_functional(synthetic_frame("fill_ftb"), Config{});
   const FrameResult back = run_functional(synthetic_frame("fill_btf"), Config{});
   CHECK(front.counters.quad_generator.fragments == 4u * 1920 * 1080);
