@@ -9,14 +9,14 @@ module raster_pipeline
 #(
   // Names in the configuration file and what each costs: docs/units/raster_pipeline.md.
   parameter int unsigned SetupQueue = 8,
-  parameter int unsigned SetupFifo = 24,
   parameter int unsigned SetupInterval = 1,
-  parameter int unsigned WalkerFifo = 16,
+  parameter int unsigned SetupFifo = 24,
   parameter int unsigned BlockSize = 32,
   parameter bit          BlockLevel = 1'b1,
   parameter bit          TrivialReject = 1'b1,
   parameter bit          TrivialAccept = 1'b1,
   parameter int unsigned StepInterval = 1,
+  parameter int unsigned WalkerFifo = 16,
   parameter int unsigned PipeStages = 2,
   parameter int unsigned EdgeFifo = 4,
   parameter int unsigned QuadFifo = 4,
@@ -26,9 +26,9 @@ module raster_pipeline
   parameter int unsigned Ways = 4,
   parameter int unsigned MissesInFlight = 16,
   parameter int unsigned WriteBuffers = 4,
+  parameter int unsigned ClearTiles = 64,
   parameter int unsigned ReadBytes = 64,
   parameter int unsigned WriteBytes = 64,
-  parameter int unsigned ClearTiles = 64,
   /// Tiles of all surfaces, 2 or more.
   parameter int unsigned MemoryTiles = 65536,
   /// Bits of a cycle counter.

@@ -51,7 +51,7 @@ const std::vector<Key>& keys() {
       [](Config& config, int value) { config.section name = static_cast<type>(value); }},
 #define KEY(section, name, type, value, legal, unit, changes, help) \
   ROW(section, name, type, legal, unit, changes, help, "")
-#define MODULE(section, name, type, value, legal, unit, changes, help, Parameter, place) \
+#define MODULE(section, name, type, value, legal, unit, changes, help, Parameter) \
   ROW(section, name, type, legal, unit, changes, help, "-G" #Parameter)
 #define PACKAGE(section, name, type, value, legal, unit, changes, help, Parameter, define) \
   ROW(section, name, type, legal, unit, changes, help, "-D" #define)

@@ -13,7 +13,7 @@
 /// one. The kind of a row says what the key is in the RTL; what the rows have in common comes first:
 ///
 ///   KEY    (section., name, type, default, legal, unit, changes, help)           no parameter
-///   MODULE (..., Parameter, place)    parameter of raster_pipeline.sv, and its place among them, from 1
+///   MODULE (..., Parameter)           parameter of raster_pipeline.sv, which has them in the order of the rows
 ///   PACKAGE(..., Parameter, define)   parameter of raster_pkg.sv, and the define that sets it
 ///
 /// section  with its dot, as the member is reached: `config.section.name`; empty outside all sections
@@ -34,47 +34,47 @@
   END(raster)                                                                                                \
   BEGIN(setup)                                                                                               \
     MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \
-        "triangles in the cull stage and its queue, dropped ones included", SetupQueue, 1)                   \
+        "triangles in the cull stage and its queue, dropped ones included", SetupQueue)                      \
     MODULE(setup., interval, int, 1, power_of_two(1, 16), "cycles", time,                                    \
-        "from a drawn triangle to the next: the time of a divider stage", SetupInterval, 3)                  \
+        "from a drawn triangle to the next: the time of a divider stage", SetupInterval)                     \
     MODULE(setup., fifo, int, 24, range(2, 64), "triangles", time,                                           \
-        "output FIFO of setup", SetupFifo, 2)                                                                \
+        "output FIFO of setup", SetupFifo)                                                                   \
   END(setup)                                                                                                 \
   BEGIN(tile_walker)                                                                                         \
     PACKAGE(tile_walker., tile_size, int, 8, power_of_two(4, 16), "pixels", function,                        \
         "side of the tile that the edge evaluator takes in one step", TileSize, HALFSPACE_TILE_SIZE)         \
     MODULE(tile_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                       \
-        "side of the block that the walker decides before its tiles; larger than a tile", BlockSize, 5)      \
+        "side of the block that the walker decides before its tiles; larger than a tile", BlockSize)         \
     MODULE(tile_walker., block_level, bool, true, boolean(), "", function,                                   \
-        "decide whole blocks first; off: decide every tile of the bounds", BlockLevel, 6)                    \
+        "decide whole blocks first; off: decide every tile of the bounds", BlockLevel)                       \
     MODULE(tile_walker., trivial_reject, bool, true, boolean(), "", function,                                \
-        "drop blocks and tiles that are outside one edge", TrivialReject, 7)                                 \
+        "drop blocks and tiles that are outside one edge", TrivialReject)                                    \
     MODULE(tile_walker., trivial_accept, bool, true, boolean(), "", function,                                \
-        "skip an edge that has all samples of the tile inside", TrivialAccept, 8)                            \
+        "skip an edge that has all samples of the tile inside", TrivialAccept)                               \
     MODULE(tile_walker., step_interval, int, 1, range(1, 8), "cycles", time,                                 \
-        "length of a step of the walker", StepInterval, 9)                                                   \
+        "length of a step of the walker", StepInterval)                                                      \
     MODULE(tile_walker., fifo, int, 16, range(2, 64), "tile jobs", time,                                     \
-        "output FIFO of the walker", WalkerFifo, 4)                                                          \
+        "output FIFO of the walker", WalkerFifo)                                                             \
   END(tile_walker)                                                                                           \
   BEGIN(edge_evaluator)                                                                                      \
     MODULE(edge_evaluator., pipe_stages, int, 2, range(1, 3), "registers", time,                             \
-        "pipeline registers before the output FIFO", PipeStages, 10)                                         \
+        "pipeline registers before the output FIFO", PipeStages)                                             \
     MODULE(edge_evaluator., fifo, int, 4, range(2, 32), "tiles", time,                                       \
-        "output FIFO of the edge evaluator", EdgeFifo, 11)                                                   \
+        "output FIFO of the edge evaluator", EdgeFifo)                                                       \
   END(edge_evaluator)                                                                                        \
   BEGIN(quad_generator)                                                                                      \
     PACKAGE(quad_generator., quads_per_cycle, int, 4, power_of_two(1, 16), "quads", time,                    \
         "width of a beat; at most the quads of a tile", QuadWidth, HALFSPACE_QUAD_WIDTH)                     \
     MODULE(quad_generator., fifo, int, 4, range(2, 64), "bursts", time,                                      \
-        "output FIFO of the quad generator; a burst is the quads of one tile", QuadFifo, 12)                 \
+        "output FIFO of the quad generator; a burst is the quads of one tile", QuadFifo)                     \
   END(quad_generator)                                                                                        \
   BEGIN(early_z)                                                                                             \
     PACKAGE(early_z., quads_per_cycle, int, 4, power_of_two(1, 16), "quads", time,                           \
         "quads tested in a cycle; at most quad_generator.quads_per_cycle", TestWidth, HALFSPACE_TEST_WIDTH)  \
     MODULE(early_z., pending, int, 32, range(2, 64), "bursts", time,                                         \
-        "bursts between z_lookup and z_test", PendingDepth, 13)                                              \
+        "bursts between z_lookup and z_test", PendingDepth)                                                  \
     MODULE(early_z., fifo, int, 16, range(2, 64), "bursts", time,                                            \
-        "output FIFO of early_z", EarlyZFifo, 14)                                                            \
+        "output FIFO of early_z", EarlyZFifo)                                                                \
   END(early_z)                                                                                               \
   BEGIN(depth)                                                                                               \
     KEY(depth., interpolator, DepthInterpolator, DepthInterpolator::kBarycentric,                            \
@@ -83,26 +83,26 @@
   END(depth)                                                                                                 \
   BEGIN(z_cache)                                                                                             \
     MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \
-        "lines of the z cache, all parts and ways together; room for 4 bytes a sample", Lines, 15)           \
+        "lines of the z cache, all parts and ways together; room for 4 bytes a sample", Lines)               \
     MODULE(z_cache., ways, int, 4, power_of_two(1, 16), "lines", time,                                       \
-        "lines of a set", Ways, 16)                                                                          \
+        "lines of a set", Ways)                                                                              \
     PACKAGE(z_cache., parts, int, 1, power_of_two(1, 4), "", time,                                           \
         "lines of a tile: each holds an equal band of its rows", ZParts, HALFSPACE_Z_PARTS)                  \
     MODULE(z_cache., misses_in_flight, int, 16, range(1, 64), "lines", time,                                 \
-        "fill buffers; at least z_cache.parts", MissesInFlight, 17)                                          \
+        "fill buffers; at least z_cache.parts", MissesInFlight)                                              \
     MODULE(z_cache., write_buffers, int, 4, range(1, 64), "lines", time,                                     \
-        "lines on their way to memory; at least z_cache.parts", WriteBuffers, 18)                            \
+        "lines on their way to memory; at least z_cache.parts", WriteBuffers)                                \
     KEY(z_cache., fast_clear, bool, true, boolean(), "", function,                                           \
         "clear a whole surface by marking its lines; off: draw the clear")                                   \
     MODULE(z_cache., clear_tiles, int, 64, power_of_two(1, 1024), "tiles", time,                             \
-        "tiles that a fast clear marks in a cycle", ClearTiles, 21)                                          \
+        "tiles that a fast clear marks in a cycle", ClearTiles)                                              \
   END(z_cache)                                                                                               \
   BEGIN(memory)                                                                                              \
     KEY(memory., latency, int, 100, range(1, 65535), "cycles", time,                                         \
         "from a request to its first data")                                                                  \
     MODULE(memory., read_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                               \
-        "read in a cycle", ReadBytes, 19)                                                                    \
+        "read in a cycle", ReadBytes)                                                                        \
     MODULE(memory., write_bytes, int, 64, power_of_two(1, 1024), "bytes", time,                              \
-        "written in a cycle", WriteBytes, 20)                                                                \
+        "written in a cycle", WriteBytes)                                                                    \
   END(memory)
 // clang-format on

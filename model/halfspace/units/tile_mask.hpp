@@ -24,10 +24,12 @@ constexpr bool any(const TileMask& mask) {
   return (mask.word[0] | mask.word[1] | mask.word[2] | mask.word[3]) != 0;
 }
 
+/// Of a tile of at most this size.
+template <int TileSize = 16>
 constexpr int popcount(const TileMask& mask) {
   int count = 0;
-  for (const std::uint64_t word : mask.word) {
-    count += std::popcount(word);
+  for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
+    count += std::popcount(mask.word[i]);
   }
   return count;
 }

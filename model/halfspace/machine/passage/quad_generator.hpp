@@ -23,15 +23,16 @@ namespace halfspace::passage {
 /// `coverage` must hold a sample: nothing leaves the unit for one that is empty.
 template <int TileSize>
 Burst quad_generator(const Coverage& coverage, DrawContext& draw) {
-  Burst burst{.packet = halfspace::quad_generator<TileSize>(coverage), .fragments = popcount(coverage.mask)};
-  burst.quads = popcount(burst.packet.quads);
+  Burst burst{.packet = halfspace::quad_generator<TileSize>(coverage),
+              .fragments = popcount<TileSize>(coverage.mask)};
+  burst.quads = popcount<TileSize>(burst.packet.quads);
   const auto quads = static_cast<std::uint64_t>(burst.quads);
   const auto fragments = static_cast<std::uint64_t>(burst.fragments);
   QuadGeneratorCounters& counters = draw.counters.quad_generator;
   ++counters.tiles;
   counters.fragments += fragments;
   counters.quads += quads;
-  counters.quads_full += static_cast<std::uint64_t>(popcount(full_quads<TileSize>(burst.packet)));
+  counters.quads_full += static_cast<std::uint64_t>(popcount<TileSize>(full_quads<TileSize>(burst.packet)));
   counters.quads_empty += TileSize * TileSize / 4 - quads;
   counters.helpers += 4 * quads - fragments;
   return burst;

@@ -37,7 +37,7 @@ template <int TileSize>
 TileMask z_test(const SetupTriangle& triangle, const Burst& burst, DrawContext& draw, std::uint32_t* stored,
                 TileCodes<TileSize>& codes) {
   const TileMask passed = halfspace::z_test<TileSize>(triangle, burst.packet, draw.early_z, stored, codes);
-  count_z_test(draw, burst.fragments, popcount(passed));
+  count_z_test(draw, burst.fragments, popcount<TileSize>(passed));
   if (draw.record_quads) {
     complete_codes<TileSize>(triangle, burst.packet, draw.early_z, codes);
   }

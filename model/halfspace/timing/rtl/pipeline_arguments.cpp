@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "halfspace/numerics/error.hpp"
 
 namespace halfspace::rtl {
@@ -20,19 +18,17 @@ std::vector<std::string> pipeline_arguments(const Config& config) {
     throw InputError("configuration key 'depth.interpolator' is 'plane'; legal for the RTL: barycentric");
   }
   std::vector<std::string> arguments;
-  std::map<int, std::string> by_place;
+  std::vector<std::string> parameters;
 #define NOTHING(...)
 #define PACKAGE(section, name, type, value, legal, unit, changes, help, Parameter, define) \
   arguments.push_back("-D" #define "=" + value_text(config.section name));
-#define MODULE(section, name, type, value, legal, unit, changes, help, Parameter, place) \
-  by_place[place] = "-G" #Parameter "=" + value_text(config.section name);
+#define MODULE(section, name, type, value, legal, unit, changes, help, Parameter) \
+  parameters.push_back("-G" #Parameter "=" + value_text(config.section name));
   HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, MODULE, PACKAGE)
 #undef NOTHING
 #undef PACKAGE
 #undef MODULE
-  for (auto& [place, argument] : by_place) {
-    arguments.push_back(std::move(argument));
-  }
+  arguments.insert(arguments.end(), parameters.begin(), parameters.end());
   arguments.push_back(fmt::format("-GMemoryTiles={}", kMemoryTiles));
   return arguments;
 }
