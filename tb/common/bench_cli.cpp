@@ -8,12 +8,15 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/report/tile_job_file.hpp"
 
 namespace halfspace::tb {
 namespace {
 
+constexpr std::uint64_t kResetPeriod = 50;  // mean cycles between resets
 constexpr std::uint64_t kCyclesBeforeFailure = 300;  // of waveform
 
 BenchOptions base_options(const CommandLine& command_line) {
@@ -146,6 +149,35 @@ std::vector<BenchOptions> with_stalls(const BenchOptions& base, const CommandLin
     all.back().seed = base.seed + all.size() - 1;
   }
   return all;
+}
+
+std::vector<BenchRun> case_runs(const std::string& test_case, const CommandLine& command_line,
+                                const std::vector<BenchOptions>& stalls, const CaseStimuli& stimuli) {
+  const std::uint64_t packets = (command_line.tiles + stalls.size() - 1) / stalls.size();
+  std::vector<BenchRun> runs;
+  for (BenchOptions options : stalls) {
+    const std::uint64_t seed = options.seed;
+    if (test_case == "directed") {
+      options.probe_paths = true;
+      runs.push_back({test_case, options, [=] { return stimuli.directed(seed); }});
+    } else if (test_case == "replay") {
+      runs.push_back({test_case, options, [=] { return stimuli.replay(seed); }});
+    } else {
+      options.reset_period = test_case == "reset" ? kResetPeriod : 0;
+      runs.push_back({test_case, options, [=] { return stimuli.random(seed, packets); }});
+    }
+  }
+  return runs;
+}
+
+std::vector<TileJob> replayed_jobs(const std::string& file, const DutModel& model) {
+  TileJobFile jobs = read_tile_jobs(file);
+  if (jobs.widths.TileSize != model.tile_size || jobs.widths.SubPixelBits != model.sub_pixel_bits) {
+    throw InputError(fmt::format("{}: tile size {} and {} sub-pixel bits, but model {} has {} and {}", file,
+                                 jobs.widths.TileSize, jobs.widths.SubPixelBits, model.name, model.tile_size,
+                                 model.sub_pixel_bits));
+  }
+  return std::move(jobs.jobs);
 }
 
 int bench_main(int argc, char** argv, const UnitBench& bench) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/units/packets.hpp"
 #include "stream_bench.hpp"
 #include "stream_dut.hpp"
 
@@ -54,6 +55,22 @@ struct UnitBench {
 /// The stall profiles that random cases go through, or the one that the command line asks for.
 [[nodiscard]] std::vector<BenchOptions> with_stalls(const BenchOptions& base,
                                                     const CommandLine& command_line);
+
+/// The stimuli of the cases that every unit has.
+struct CaseStimuli {
+  std::function<std::unique_ptr<Stimulus>(std::uint64_t seed)> directed;
+  std::function<std::unique_ptr<Stimulus>(std::uint64_t seed)> replay;  ///< of CommandLine::replay
+  std::function<std::unique_ptr<Stimulus>(std::uint64_t seed, std::uint64_t packets)> random;
+};
+
+/// The runs of the cases directed, replay, reset and random: one for each of `stalls`, which share the random
+/// packets that the command line asks for.
+[[nodiscard]] std::vector<BenchRun> case_runs(const std::string& test_case, const CommandLine& command_line,
+                                              const std::vector<BenchOptions>& stalls,
+                                              const CaseStimuli& stimuli);
+
+/// The tile jobs of a file for `model`. Throws InputError where they are of another machine.
+[[nodiscard]] std::vector<TileJob> replayed_jobs(const std::string& file, const DutModel& model);
 
 /// Exit status: 0 when all runs passed, a FailureKind when one did not, 1 for input that cannot be used.
 int bench_main(int argc, char** argv, const UnitBench& bench);

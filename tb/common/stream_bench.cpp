@@ -68,7 +68,7 @@ class Bench {
       dut_.clock_edge();
     }
     if (dut_.input_ready() || dut_.output_valid()) {
-      fail({FailureKind::kHandshake, cycle_, "ready or valid in reset"});
+      fail(Failure{FailureKind::kHandshake, cycle_, "ready or valid in reset"});
     }
     dut_.set_reset(false);
     offered_ = false;
@@ -117,7 +117,7 @@ class Bench {
     watch_for_deadlock(accepted || left);
     dut_.clock_edge();
     if (dut_.assertion_failed()) {
-      fail({FailureKind::kAssertion, cycle_, "an assertion of the RTL failed: see its message above"});
+      fail(Failure{FailureKind::kAssertion, cycle_, "an assertion of the RTL failed: see its message above"});
     }
     ++cycle_;
   }
@@ -151,7 +151,7 @@ class Bench {
     dut_.settle();
     if (dut_.input_ready() != in_ready || dut_.output_valid() != out_valid ||
         !std::ranges::equal(dut_.output_payload(), payload)) {
-      fail({FailureKind::kHandshake, cycle_, "an output follows an input within the cycle"});
+      fail(Failure{FailureKind::kHandshake, cycle_, "an output follows an input within the cycle"});
     }
     dut_.set_input(offered_, input_);
     dut_.set_output_ready(shim_.ready());
@@ -166,12 +166,13 @@ class Bench {
     if (source_empty_ && !offered_ && !dut_.output_valid()) {
       gave_up_ = true;  // nothing waits for anything: what is outstanding is lost
     } else {
-      fail({FailureKind::kDeadlock, cycle_,
-            fmt::format(
-                "nothing moved for {} cycles: input valid {:d} ready {:d}, output valid {:d} ready {:d}, {} "
-                "packets received, {} outstanding",
-                shape_.deadlock_cycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
-                scoreboard_.received(), scoreboard_.outstanding())});
+      fail(Failure{
+          FailureKind::kDeadlock, cycle_,
+          fmt::format(
+              "nothing moved for {} cycles: input valid {:d} ready {:d}, output valid {:d} ready {:d}, {} "
+              "packets received, {} outstanding",
+              shape_.deadlock_cycles, offered_, dut_.input_ready(), dut_.output_valid(), shim_.ready(),
+              scoreboard_.received(), scoreboard_.outstanding())});
     }
   }
 
@@ -179,21 +180,16 @@ class Bench {
     // The first packet is accepted in cycle 1: ready comes from a register that reset clears.
     const std::uint64_t expected = options_.full_rate_packets + static_cast<std::uint64_t>(shape_.latency);
     if (last_left_ != expected) {
-      fail({FailureKind::kTiming, last_left_,
-            fmt::format("{} packets back to back took {} cycles, not {}", options_.full_rate_packets,
-                        last_left_, expected)});
+      fail(Failure{FailureKind::kTiming, last_left_,
+                   fmt::format("{} packets back to back took {} cycles, not {}", options_.full_rate_packets,
+                               last_left_, expected)});
     }
   }
 
   /// The first failure counts.
-  void fail(Failure failure) {
+  void fail(std::optional<Failure> failure) {
     if (!failure_) {
       failure_ = std::move(failure);
-    }
-  }
-  void fail(std::optional<Failure> failure) {
-    if (failure) {
-      fail(std::move(*failure));
     }
   }
 

@@ -137,13 +137,14 @@ class Run {
     accept();
     dut_.clock_edge();
     if (dut_.assertion_failed()) {
-      fail({FailureKind::kAssertion, cycle_, "an assertion of the RTL failed: see its message above"});
+      fail(Failure{FailureKind::kAssertion, cycle_, "an assertion of the RTL failed: see its message above"});
     }
     quiet_ = command_ == workload_.commands.size() && scoreboard_.outstanding() == 0 ? quiet_ + 1 : 0;
     if (++idle_cycles_ > kDeadlockCycles) {
-      fail({FailureKind::kDeadlock, cycle_,
-            fmt::format("nothing moved for {} cycles, in command {} of {}, {} beats outstanding",
-                        kDeadlockCycles, command_, workload_.commands.size(), scoreboard_.outstanding())});
+      fail(Failure{
+          FailureKind::kDeadlock, cycle_,
+          fmt::format("nothing moved for {} cycles, in command {} of {}, {} beats outstanding",
+                      kDeadlockCycles, command_, workload_.commands.size(), scoreboard_.outstanding())});
     }
     ++cycle_;
   }
@@ -212,7 +213,7 @@ class Run {
     if (beat_ == 0 && out_.beat_ready && log.ready_from == 0) {
       log.ready_from = cycle_;
     } else if (log.ready_from != 0 && !out_.beat_ready) {
-      fail({FailureKind::kTiming, cycle_, "input ready withdrawn"});
+      fail(Failure{FailureKind::kTiming, cycle_, "input ready withdrawn"});
     }
     if (!in_.beat_valid || !out_.beat_ready) {
       return;
@@ -248,7 +249,7 @@ class Run {
       return;
     }
     if (outstanding_.empty()) {
-      fail({FailureKind::kExtra, cycle_, "a beat is valid, but none is expected"});
+      fail(Failure{FailureKind::kExtra, cycle_, "a beat is valid, but none is expected"});
       return;
     }
     CommandLog& log = log_.commands[outstanding_.front()];
@@ -293,8 +294,8 @@ class Run {
     log_.requests.push_back({cycle_, out_.read_line});
     const std::vector<std::uint8_t>& line = memory_.at(out_.read_line);
     if (line.empty() || out_.read_half != (line.size() != static_cast<std::size_t>(shape_.line_bytes()))) {
-      fail({FailureKind::kPayload, cycle_,
-            fmt::format("request for line {} of the wrong size", out_.read_line)});
+      fail(Failure{FailureKind::kPayload, cycle_,
+                   fmt::format("request for line {} of the wrong size", out_.read_line)});
       return;
     }
     Fill fill{.first = std::max(cycle_ + options_.latency, fill_free_), .beats = {}};
@@ -328,8 +329,8 @@ class Run {
     }
     if (out_.write_last != (write_bytes_.size() == line.size()) ||
         out_.write_half != (line.size() != static_cast<std::size_t>(shape_.line_bytes()))) {
-      fail({FailureKind::kPayload, cycle_,
-            fmt::format("write of line {} of the wrong size", out_.write_line)});
+      fail(Failure{FailureKind::kPayload, cycle_,
+                   fmt::format("write of line {} of the wrong size", out_.write_line)});
     }
     if (out_.write_last) {
       line.swap(write_bytes_);
@@ -342,10 +343,10 @@ class Run {
   bool is_next(const char* what, std::uint32_t line, std::size_t number,
                const std::vector<std::uint32_t>& expected) {
     if (number >= expected.size()) {
-      fail({FailureKind::kExtra, cycle_, fmt::format("{} line {} that nobody needs", what, line)});
+      fail(Failure{FailureKind::kExtra, cycle_, fmt::format("{} line {} that nobody needs", what, line)});
     } else if (line != expected[number]) {
-      fail({FailureKind::kPayload, cycle_,
-            fmt::format("{} line {}, not {}, as number {}", what, line, expected[number], number)});
+      fail(Failure{FailureKind::kPayload, cycle_,
+                   fmt::format("{} line {}, not {}, as number {}", what, line, expected[number], number)});
     }
     return number < expected.size() && line == expected[number];
   }
@@ -359,9 +360,9 @@ class Run {
       ++lines_;
       const auto [want, have] = std::ranges::mismatch(last.bytes, memory_[line]);
       if (want != last.bytes.end()) {
-        fail({FailureKind::kPayload, cycle_,
-              fmt::format("memory at the end: line {}, byte {}: expected {:#x}, got {:#x}", line,
-                          want - last.bytes.begin(), *want, *have)});
+        fail(Failure{FailureKind::kPayload, cycle_,
+                     fmt::format("memory at the end: line {}, byte {}: expected {:#x}, got {:#x}", line,
+                                 want - last.bytes.begin(), *want, *have)});
       }
     }
   }
@@ -416,14 +417,10 @@ class Run {
     return out_.beat_valid;
   }
 
-  void fail(Failure failure) {
+  /// The first failure counts.
+  void fail(std::optional<Failure> failure) {
     if (!failure_) {
       failure_ = std::move(failure);
-    }
-  }
-  void fail(std::optional<Failure> failure) {
-    if (failure) {
-      fail(std::move(*failure));
     }
   }
 

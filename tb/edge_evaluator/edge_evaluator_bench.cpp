@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/bench_cli.hpp"
-#include "halfspace/numerics/error.hpp"
 #include "halfspace/report/tile_job_file.hpp"
 #include "models.hpp"
 #include "stimulus.hpp"
@@ -17,7 +16,6 @@ namespace halfspace::tb {
 namespace {
 
 constexpr std::uint64_t kTimingTiles = 1000;
-constexpr std::uint64_t kResetPeriod = 50;
 
 Widths widths_of(const DutModel& model) {
   return Widths{.SubPixelBits = model.sub_pixel_bits, .TileSize = model.tile_size};
@@ -35,41 +33,22 @@ std::string model_of_file(const std::string& file) {
   return fmt::format("t{}_s{}", widths.TileSize, widths.SubPixelBits);
 }
 
-std::vector<TileJob> replayed_jobs(const std::string& file, const DutModel& model) {
-  TileJobFile jobs = read_tile_jobs(file);
-  if (jobs.widths.TileSize != model.tile_size || jobs.widths.SubPixelBits != model.sub_pixel_bits) {
-    throw InputError(fmt::format("{}: tile size {} and {} sub-pixel bits, but model {} has {} and {}", file,
-                                 jobs.widths.TileSize, jobs.widths.SubPixelBits, model.name, model.tile_size,
-                                 model.sub_pixel_bits));
-  }
-  return std::move(jobs.jobs);
-}
-
 std::vector<BenchRun> runs(const DutModel& model, const std::string& test_case,
                            const CommandLine& command_line, const BenchOptions& base) {
   const Widths widths = widths_of(model);
-  std::vector<BenchRun> runs;
   if (test_case == "timing") {
     BenchOptions options = base;
     options.full_rate_packets = kTimingTiles;
+    std::vector<BenchRun> runs;
     runs.push_back({test_case, options, [=] { return random_stimulus(widths, options.seed, kTimingTiles); }});
     return runs;
   }
-  const std::vector<BenchOptions> all = with_stalls(base, command_line);
-  for (BenchOptions options : all) {
-    if (test_case == "directed") {
-      options.probe_paths = true;
-      runs.push_back({test_case, options, [=] { return list_stimulus(widths, directed_jobs(widths)); }});
-    } else if (test_case == "replay") {
-      runs.push_back({test_case, options,
-                      [=] { return list_stimulus(widths, replayed_jobs(command_line.replay, model)); }});
-    } else {
-      options.reset_period = test_case == "reset" ? kResetPeriod : 0;
-      const std::uint64_t count = (command_line.tiles + all.size() - 1) / all.size();
-      runs.push_back({test_case, options, [=] { return random_stimulus(widths, options.seed, count); }});
-    }
-  }
-  return runs;
+  const auto list = [=](auto jobs) { return list_stimulus(widths, std::move(jobs)); };
+  return case_runs(test_case, command_line, with_stalls(base, command_line),
+                   {.directed = [=](std::uint64_t) { return list(directed_jobs(widths)); },
+                    .replay = [=](std::uint64_t) { return list(replayed_jobs(command_line.replay, model)); },
+                    .random = [=](std::uint64_t seed,
+                                  std::uint64_t jobs) { return random_stimulus(widths, seed, jobs); }});
 }
 
 }  // namespace

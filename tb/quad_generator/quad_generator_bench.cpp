@@ -22,7 +22,6 @@ namespace halfspace::tb {
 namespace {
 
 constexpr std::uint64_t kTimingCoverages = 200;
-constexpr std::uint64_t kResetPeriod = 50;
 constexpr int kBinsMissed = 18;  // exit status: all cases passed, but did not meet everything
 
 /// The unit's part of the bench, with what its runs have in common.
@@ -118,17 +117,6 @@ std::int64_t cycles_at_full_rate(const std::vector<std::int64_t>& counts, int fi
   return leave.back() + 1;
 }
 
-std::vector<Coverage> replayed_coverages(const std::string& file, const DutModel& model,
-                                         const Widths& widths) {
-  const TileJobFile jobs = read_tile_jobs(file);
-  if (jobs.widths.TileSize != model.tile_size || jobs.widths.SubPixelBits != model.sub_pixel_bits) {
-    throw InputError(fmt::format("{}: tile size {} and {} sub-pixel bits, but model {} has {} and {}", file,
-                                 jobs.widths.TileSize, jobs.widths.SubPixelBits, model.name, model.tile_size,
-                                 model.sub_pixel_bits));
-  }
-  return coverages_of_jobs(jobs.jobs, widths);
-}
-
 /// Coverages back to back into a sink that is always ready: the last of them not empty.
 std::vector<std::vector<Coverage>> timed_lists(const Widths& widths, std::uint64_t seed) {
   Random random(seed);
@@ -168,22 +156,15 @@ std::vector<BenchRun> QuadGeneratorBench::runs(const DutModel& dut, const std::s
     }
     return runs;
   }
-  const std::vector<BenchOptions> all = with_stalls(base, command_line);
-  for (BenchOptions options : all) {
-    if (test_case == "directed") {
-      options.probe_paths = true;
-      runs.push_back({test_case, options, [=] { return list_stimulus(widths, directed_coverages(widths)); }});
-    } else if (test_case == "replay") {
-      runs.push_back({test_case, options, [=] {
-                        return list_stimulus(widths, replayed_coverages(command_line.replay, dut, widths));
-                      }});
-    } else {
-      options.reset_period = test_case == "reset" ? kResetPeriod : 0;
-      const std::uint64_t count = (command_line.tiles + all.size() - 1) / all.size();
-      runs.push_back({test_case, options, [=] { return random_stimulus(widths, options.seed, count); }});
-    }
-  }
-  return runs;
+  const auto list = [=](auto coverages) { return list_stimulus(widths, std::move(coverages)); };
+  return case_runs(test_case, command_line, with_stalls(base, command_line),
+                   {.directed = [=](std::uint64_t) { return list(directed_coverages(widths)); },
+                    .replay =
+                        [=](std::uint64_t) {
+                          return list(coverages_of_jobs(replayed_jobs(command_line.replay, dut), widths));
+                        },
+                    .random = [=](std::uint64_t seed,
+                                  std::uint64_t tiles) { return random_stimulus(widths, seed, tiles); }});
 }
 
 }  // namespace

@@ -19,7 +19,6 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr std::uint64_t kResetPeriod = 50;
 constexpr std::size_t kTimingTriangles = 300;
 constexpr int kLatency = kSetupCullLatency + kSetupDivideLatency;
 const std::set<std::string> kCoverageCases = {"directed", "timing", "reset", "random"};
@@ -85,9 +84,6 @@ std::vector<BenchRun> runs(const DutModel& dut, const std::string& test_case, co
     return timing_runs(model, base);
   }
   std::vector<BenchOptions> all = with_stalls(base, command_line);
-  if (test_case == "directed") {
-    all.front().probe_paths = true;
-  }
   if (test_case == "directed" || test_case == "replay") {
     // The same packets each time: without stalls, and with bursts of them on both sides.
     std::erase_if(all, [](const BenchOptions& options) {
@@ -95,22 +91,13 @@ std::vector<BenchRun> runs(const DutModel& dut, const std::string& test_case, co
     });
     std::erase_if(all, [](const BenchOptions& options) { return options.idle == StallProfile::kHeavy; });
   }
-  std::vector<BenchRun> runs;
-  for (BenchOptions options : all) {
-    if (test_case == "directed") {
-      runs.push_back({test_case, options, [&model] { return list_stimulus(model, directed_jobs(model)); }});
-    } else if (test_case == "replay") {
-      runs.push_back({test_case, options, [&model, file = command_line.replay] {
-                        return list_stimulus(model, frame_jobs(file, model));
-                      }});
-    } else {
-      options.reset_period = test_case == "reset" ? kResetPeriod : 0;
-      const std::uint64_t count = (command_line.tiles + all.size() - 1) / all.size();
-      runs.push_back({test_case, options,
-                      [&model, seed = options.seed, count] { return random_stimulus(model, seed, count); }});
-    }
-  }
-  return runs;
+  return case_runs(
+      test_case, command_line, all,
+      {.directed = [&model](std::uint64_t) { return list_stimulus(model, directed_jobs(model)); },
+       .replay = [&model, file = command_line.replay](
+                     std::uint64_t) { return list_stimulus(model, frame_jobs(file, model)); },
+       .random = [&model](std::uint64_t seed,
+                          std::uint64_t count) { return random_stimulus(model, seed, count); }});
 }
 
 /// Prints the coverage of every model that ran; false when bins are missed that all cases together must hit.

@@ -23,7 +23,6 @@ namespace halfspace::tb {
 namespace {
 
 constexpr int kLatency = 2;
-constexpr std::uint64_t kResetPeriod = 50;
 constexpr std::uint64_t kTimingJobs = 2000;
 constexpr std::uint64_t kStalledCycles = 2000;  // longer than any stall profile holds a link
 constexpr int kBinsMissed = 18;                 // exit status, after those of FailureKind
@@ -110,24 +109,15 @@ class TileWalkerBench {
     if (test_case == "timing") {
       return timing_runs(walker, base);
     }
-    std::vector<BenchRun> runs;
-    const std::vector<BenchOptions> all = with_stalls(base, command_line);
-    for (BenchOptions options : all) {
-      if (test_case == "directed") {
-        options.probe_paths = true;
-        runs.push_back({test_case, options,
-                        [=] { return list_stimulus(walker, options.seed, directed_triangles(walker)); }});
-      } else if (test_case == "replay") {
-        runs.push_back({test_case, options, [=, file = command_line.replay] {
-                          return list_stimulus(walker, options.seed, frame_triangles(file, walker));
-                        }});
-      } else {
-        options.reset_period = test_case == "reset" ? kResetPeriod : 0;
-        const std::uint64_t jobs = (command_line.tiles + all.size() - 1) / all.size();
-        runs.push_back({test_case, options, [=] { return random_stimulus(walker, options.seed, jobs); }});
-      }
-    }
-    return runs;
+    const auto list = [=](std::uint64_t seed, auto triangles) {
+      return list_stimulus(walker, seed, std::move(triangles));
+    };
+    return case_runs(test_case, command_line, with_stalls(base, command_line),
+                     {.directed = [=](std::uint64_t seed) { return list(seed, directed_triangles(walker)); },
+                      .replay = [=, file = command_line.replay](
+                                    std::uint64_t seed) { return list(seed, frame_triangles(file, walker)); },
+                      .random = [=](std::uint64_t seed,
+                                    std::uint64_t jobs) { return random_stimulus(walker, seed, jobs); }});
   }
 
   /// Without a stall: the directed triangles, large squares, random triangles.
