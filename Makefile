@@ -12,12 +12,12 @@ help: ## Show this list.
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 .PHONY: demo
-demo: release-program ## Install what is missing, build, and rasterize a real frame into out/cc0_truck.
+demo: release-program ## Install what is missing, build, and rasterize a truck of 117,013 triangles into out/cc0_truck.
 	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --fidelity recurrence --out out/cc0_truck
 
 .PHONY: test
 test: release debug ## Install what is missing, build, and run the tests.
-	ctest --test-dir build/debug -LE 'slow|lint' --output-on-failure -j 2
+	ctest --test-dir build/debug -L 'unit|property|timing' --output-on-failure -j 2
 	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis' --output-on-failure -j 2
 
 .PHONY: lint
@@ -26,6 +26,7 @@ lint: build/release/build.ninja $(PYTHON_TOOLS) ## Look at layout and static ana
 
 .PHONY: test-slow
 test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, and what `make test` leaves to them.
+	@sh tools/install_packages.sh tools/packages-slow.txt
 	cmake --build --preset release --target slow_benches
 	cmake --build --preset debug --target halfspace_system_tests
 	ctest --test-dir build/debug -L slow --output-on-failure -j 2

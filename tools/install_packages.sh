@@ -1,7 +1,8 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing. Where that is not possible it says what to install.
+# Installs the packages of a list that are missing: install_packages.sh [LIST], by default tools/packages.txt. Where that is
+# not possible it says what to install.
 set -eu
-list=$(dirname "$0")/packages.txt
+list=${1:-$(dirname "$0")/packages.txt}
 packages=$(grep -v '^#' "$list")
 
 if ! command -v dpkg-query >/dev/null 2>&1; then

@@ -16,7 +16,7 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr std::uint64_t kResetPeriod = 50;  // mean cycles between resets
+constexpr std::uint64_t kResetPeriod = 50;           // mean cycles between resets
 constexpr std::uint64_t kCyclesBeforeFailure = 300;  // of waveform
 
 BenchOptions base_options(const CommandLine& command_line) {

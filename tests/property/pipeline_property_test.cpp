@@ -71,6 +71,7 @@ class QuadChecker final : public PacketObserver {
     last = {event.draw, event.triangle};
     const int visits = ++seen[{event.draw, event.triangle, event.x, event.y}];
     once = once && visits == 1;
+    full += event.mask == 0xF ? 1 : 0;
     for (int i = 0; i < 4; ++i) {
       covered += event.mask >> i & 1;
       helper_depth =
@@ -79,6 +80,7 @@ class QuadChecker final : public PacketObserver {
   }
   std::uint64_t quads = 0;
   std::uint64_t covered = 0;
+  std::uint64_t full = 0;
   bool aligned = true;
   bool subset = true;
   bool ordered = true;
@@ -210,6 +212,7 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
   CHECK((checker.aligned && checker.subset && checker.ordered && checker.once && !checker.helper_depth));
   CHECK(checker.quads == counters.quads);
   CHECK(checker.covered == counters.fragments);
+  CHECK(checker.full == counters.quads_full);
   CHECK(counters.helpers == 4 * counters.quads - counters.fragments);
   std::uint64_t fragments = 0;
   std::uint64_t survivors = 0;

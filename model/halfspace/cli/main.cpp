@@ -5,14 +5,20 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "halfspace/cli/commands.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"halfspace: a cycle-approximate hardware rasterizer model", "halfspace"};
   app.set_version_flag("--version", HALFSPACE_VERSION);
-  app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return fmt::format("halfspace: {}; see 'halfspace --help'\n", error.what());
+  app.failure_message([&app](const CLI::App*, const CLI::Error& error) {
+    std::string command = app.get_name();
+    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+      at = at->get_subcommands().front();
+      command += " " + at->get_name();
+    }
+    return fmt::format("halfspace: {}; see '{} --help'\n", error.what(), command);
   });
   int status = 0;
   try {

@@ -179,7 +179,7 @@ void RtlOptions::add_to(CLI::App& command) {
       ->type_name("N");
   command
       .add_option("--wave", wave,
-                  "write an FST waveform; needs a pipeline with checks: --rtl-folder .../checked")
+                  "write an FST waveform; needs a pipeline of the folder checked or no_dfg: --rtl-folder")
       ->type_name("FILE");
 }
 

@@ -42,7 +42,8 @@
   END(setup)                                                                                                 \
   BEGIN(tile_walker)                                                                                         \
     PACKAGE(tile_walker., tile_size, int, 8, power_of_two(4, 16), "pixels", function,                        \
-        "side of the tile that the edge evaluator takes in one step", TileSize, HALFSPACE_TILE_SIZE)         \
+        "side of the tile that the edge evaluator takes in one step; a line of the z cache grows with it",   \
+        TileSize, HALFSPACE_TILE_SIZE)                                                                       \
     MODULE(tile_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                       \
         "side of the block that the walker decides before its tiles; larger than a tile", BlockSize)         \
     MODULE(tile_walker., block_level, bool, true, boolean(), "", function,                                   \
@@ -83,7 +84,8 @@
   END(depth)                                                                                                 \
   BEGIN(z_cache)                                                                                             \
     MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \
-        "lines of the z cache, all parts and ways together; room for 4 bytes a sample", Lines)               \
+        "lines of the z cache, all parts and ways together; each holds tile_size^2 / parts samples of "      \
+        "4 bytes, so a larger tile makes the cache larger", Lines)                                           \
     MODULE(z_cache., ways, int, 4, power_of_two(1, 16), "lines", time,                                       \
         "lines of a set", Ways)                                                                              \
     PACKAGE(z_cache., parts, int, 1, power_of_two(1, 4), "", time,                                           \

@@ -14,7 +14,8 @@ namespace halfspace::rtl {
 inline constexpr std::uint32_t kMemoryTiles = 65536;
 
 /// "-DHALFSPACE_TILE_SIZE=8", "-GSetupQueue=8" and so on: the defines, then the parameters, one for every key
-/// that the RTL knows, in the order of the keys; then MemoryTiles. The same arguments mean the same RTL. Throws InputError where there is no RTL for the configuration.
+/// that the RTL knows, in the order of the keys; then MemoryTiles. The same arguments mean the same RTL.
+/// Throws InputError where there is no RTL for the configuration.
 [[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& config);
 
 }  // namespace halfspace::rtl

@@ -61,8 +61,8 @@ std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config, const fs:
     names.push_back(file.stem().string().substr(std::string(kPrefix).size()));
   }
   throw InputError(
-      fmt::format("no verilated pipeline of this configuration in {} (there: {}); the build makes those of "
-                  "HALFSPACE_RTL_CONFIGS",
+      fmt::format("no verilated pipeline of this configuration in {} (there: {}); `make rtl` builds those of "
+                  "the CMake variable HALFSPACE_RTL_CONFIGS",
                   folder.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 

@@ -84,9 +84,9 @@ class StageMeter {
   }
   void trace_on(TimedSignal* signal) { signal_ = signal; }
 
-  // Values in a trace.
-  static constexpr int kBusy = 1;
-  static constexpr int kFirstReason = 2;
+  // Values in a trace, as the RTL's activity_o has them.
+  static constexpr int kBusy = 0;
+  static constexpr int kFirstReason = 1;
 
  private:
   template <class Member>
