@@ -222,6 +222,38 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
   CHECK(survivors == result.counters.early_z.survivors);
 }
 
+// The sides of the clip volume: what they cut off is outside the viewport.
+TEST_CASE("nothing is drawn outside the viewport") {
+  const auto drawn = [](const glm::vec4& viewport, bool bottom_left_rule) {
+    FrameBuilder builder(64);
+    Command& draw = builder.draw({{-500, -500, 0.5}, {900, -500, 0.5}, {-500, 900, 0.5}});
+    draw.viewport = viewport;
+    draw.flags |= bottom_left_rule ? bits({Flag::kBottomLeftRule}) : 0;
+    const std::vector<std::uint16_t> ours = rows(run_surface(builder.frame).fragments);
+    REQUIRE(ours == reference::rasterize(builder.frame, {}).at(0).fragments);
+    PixelRect rect{.x_first = 64, .y_first = 64, .x_last = -1, .y_last = -1};
+    int count = 0;
+    for (int i = 0; i < 64 * 64; ++i) {
+      if (ours[static_cast<std::size_t>(i)] != 0) {
+        ++count;
+        rect = {.x_first = std::min(rect.x_first, i % 64),
+                .y_first = std::min(rect.y_first, i / 64),
+                .x_last = std::max(rect.x_last, i % 64),
+                .y_last = std::max(rect.y_last, i / 64)};
+      }
+    }
+    CHECK(count == (rect.x_last - rect.x_first + 1) * (rect.y_last - rect.y_first + 1));
+    return std::array{rect.x_first, rect.y_first, rect.x_last, rect.y_last};
+  };
+  CHECK(drawn({0, 0, 32, 32}, false) == std::array{0, 0, 31, 31});
+  CHECK(drawn({16, 48, 32, -32}, false) == std::array{16, 16, 47, 47});
+  CHECK(drawn({8.25f, 8.75f, 16, 16}, false) == std::array{8, 9, 23, 24});
+  // A centre on the border is in at the left and the top, or at the bottom by the other rule.
+  CHECK(drawn({8.5f, 8.5f, 16, 16}, false) == std::array{8, 8, 23, 23});
+  CHECK(drawn({8.5f, 8.5f, 16, 16}, true) == std::array{8, 9, 23, 24});
+  CHECK(drawn({-1e9f, -1e9f, 2e9f, 2e9f}, false) == std::array{0, 0, 63, 63});
+}
+
 TEST_CASE("every state of a draw gives what the reference gives") {
   const std::uint64_t start = seed();
   for (std::uint64_t n = 0; n < 300; ++n) {
@@ -257,6 +289,11 @@ TEST_CASE("every state of a draw gives what the reference gives") {
       if (random.between(0, 2) == 0) {
         draw.viewport = {8, 72, 64, -64};  // moved and turned over, still on the grid
         draw.depth_range = {0.25f, 0.75f};
+      } else if (random.between(0, 2) == 0) {
+        // On the grid too, its borders on centres and between them.
+        draw.viewport = {
+            static_cast<float>(random.between(-8, 40)) / 2, static_cast<float>(random.between(-8, 40)) / 2,
+            static_cast<float>(64 << random.between(0, 1)), static_cast<float>(64 << random.between(0, 1))};
       }
     }
     const bool opaque = n % 2 == 0;

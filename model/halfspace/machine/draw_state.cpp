@@ -1,6 +1,7 @@
 #include "halfspace/machine/draw_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfspace {
 namespace {
@@ -24,6 +25,25 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
           .y_last = last(scissor.y, scissor.height, target.height)};
 }
 
+PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule) {
+  // Sums of two floats whose centre is wanted: exact in double wherever a target can be.
+  const auto side = [](double position, double extent, bool low_is_in, std::int32_t& first,
+                       std::int32_t& last) {
+    const double low = std::min(position, position + extent) - 0.5;
+    const double high = std::max(position, position + extent) - 0.5;
+    // A centre on the border belongs to the side that the tie rule gives it to, as a clipped edge would.
+    const auto pixel = [](double value) {
+      return static_cast<std::int32_t>(std::clamp(value, -1.0, 65536.0));
+    };
+    first = pixel(low_is_in ? std::ceil(low) : std::floor(low) + 1);
+    last = pixel(low_is_in ? std::ceil(high) - 1 : std::floor(high));
+  };
+  PixelRect rect;
+  side(viewport.x, viewport.z, true, rect.x_first, rect.x_last);
+  side(viewport.y, viewport.w, !bottom_left_rule, rect.y_first, rect.y_last);
+  return rect;
+}
+
 WalkerConfig walker_config(const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .block_size = config.tile_walker.block_size,
@@ -33,12 +53,18 @@ WalkerConfig walker_config(const Config& config) {
 }
 
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
+  const bool bottom_left_rule = draw.has(Flag::kBottomLeftRule);
+  const PixelRect drawable = drawable_rect(draw.scissor, target);
+  const PixelRect viewport = viewport_rect(draw.viewport, bottom_left_rule);
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
-          .bottom_left_rule = draw.has(Flag::kBottomLeftRule),
-          .bounds = drawable_rect(draw.scissor, target),
+          .bottom_left_rule = bottom_left_rule,
+          .bounds = {.x_first = std::max(drawable.x_first, viewport.x_first),
+                     .y_first = std::max(drawable.y_first, viewport.y_first),
+                     .x_last = std::min(drawable.x_last, viewport.x_last),
+                     .y_last = std::min(drawable.y_last, viewport.y_last)},
           .depth_format = format,
           .interpolator = config.depth.interpolator};
 }

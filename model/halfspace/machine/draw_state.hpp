@@ -17,6 +17,10 @@ namespace halfspace {
 /// Scissor and target, in pixels.
 PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 
+/// The pixels whose centre lies in the viewport, which is x, y, width and height; a width or height may be
+/// negative. Clipping to the sides of the clip volume would leave no sample outside of them.
+PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule);
+
 WalkerConfig walker_config(const Config& config);
 
 /// `format` is that of the target's depth surface, none where it has none.

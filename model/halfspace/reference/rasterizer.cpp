@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/clip.hpp"
@@ -37,12 +38,36 @@ PixelRect to_rect(const Scissor& s) {
   return {s.x, s.y, std::int64_t{s.x} + s.width, std::int64_t{s.y} + s.height};
 }
 
+/// The pixels of a line of `size` whose centres are between two ends; of a centre on an end, `low_is_in` says
+/// whether the low end holds it, and then the high one does not.
+std::pair<std::int64_t, std::int64_t> centres_between(double a, double b, std::int64_t size, bool low_is_in) {
+  const double low = std::min(a, b);
+  const double high = std::max(a, b);
+  const auto is_in = [&](std::int64_t i) {
+    const double centre = static_cast<double>(i) + 0.5;
+    return low_is_in ? low <= centre && centre < high : low < centre && centre <= high;
+  };
+  std::int64_t first = 0;
+  while (first < size && !is_in(first)) ++first;
+  std::int64_t end = first;
+  while (end < size && is_in(end)) ++end;
+  return {first, end};
+}
+
+PixelRect viewport_rect(const Command& draw, const Target& target) {
+  const glm::dvec4 v(draw.viewport);
+  const auto [first_x, end_x] = centres_between(v.x, v.x + v.z, target.width, true);
+  const auto [first_y, end_y] =
+      centres_between(v.y, v.y + v.w, target.height, !draw.has(Flag::kBottomLeftRule));
+  return {first_x, first_y, end_x, end_y};
+}
+
 /// Everything about a draw that its triangles share.
 struct DrawContext {
   const Command& draw;
   const Options& options;
   Storage storage;
-  PixelRect window;  ///< scissor and target
+  PixelRect window;  ///< scissor, viewport and target
   bool tests;
   bool writes;
   Surface& surface;
@@ -176,13 +201,14 @@ void draw(const Frame& frame, const Command& command, const Options& options, Su
   const Target& target = frame.targets[command.target];
   const PixelRect whole = {0, 0, target.width, target.height};
   const bool may_write = options.late_z == LateZ::kOpaque || !is_late_z(command);
-  const DrawContext context = {command,
-                               options,
-                               static_cast<Storage>(target.depth_format),
-                               intersect(to_rect(command.scissor), whole),
-                               command.has(Flag::kDepthTest),
-                               command.has(Flag::kDepthWrite) && may_write,
-                               surface};
+  const DrawContext context = {
+      command,
+      options,
+      static_cast<Storage>(target.depth_format),
+      intersect(intersect(to_rect(command.scissor), viewport_rect(command, target)), whole),
+      command.has(Flag::kDepthTest),
+      command.has(Flag::kDepthWrite) && may_write,
+      surface};
   for (std::uint32_t i = 0; i + 2 < command.index_count; i += 3) {
     std::array<glm::vec4, 3> vertices;
     for (std::uint32_t k = 0; k < 3; ++k) {

@@ -20,7 +20,7 @@ namespace halfspace {
   C(zero_area,         "dropped: no area on the sub-pixel grid")             \
   C(culled,            "dropped: faces away")                                \
   C(no_sample,         "dropped: the bounding box holds no pixel centre")    \
-  C(outside,           "dropped: the bounding box misses scissor or target") \
+  C(outside,           "dropped: the bounding box misses scissor, viewport or target") \
   C(drawn,             "given to the walker")
 
 #define HALFSPACE_TILE_WALKER_COUNTERS(C)                                             \

@@ -19,7 +19,7 @@ struct SetupState {
   bool cull_front = false;
   bool cull_back = false;
   bool bottom_left_rule = false;
-  PixelRect bounds;                               ///< scissor and target, in pixels
+  PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
 };
@@ -29,7 +29,7 @@ enum class SetupVerdict : std::uint8_t {
   kZeroArea,
   kCulled,    ///< faces away
   kNoSample,  ///< its bounding box holds no pixel centre
-  kOutside,   ///< its bounding box misses the scissor or the target
+  kOutside,   ///< its bounding box misses scissor, viewport or target
 };
 
 /// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
