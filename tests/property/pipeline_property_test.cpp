@@ -222,6 +222,29 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
   CHECK(survivors == result.counters.early_z.survivors);
 }
 
+// Depths that the unit 2^-n leaves on their code are among them.
+TEST_CASE("one unit of polygon offset moves every flat unorm depth by a code") {
+  const auto [format, least] = GENERATE(std::pair{DepthFormat::kUnorm16, 0.5000152587890625},
+                                        std::pair{DepthFormat::kUnorm24, 0.50390625});
+  Random random(seed());
+  for (int n = 0; n < 2000; ++n) {
+    const double depth =
+        n == 0 ? least : static_cast<float>(random.between(1000, (1 << 24) - 1000)) / 0x1p24f;
+    CAPTURE(depth);
+    const float units = n % 2 == 0 ? 1.0f : -1.0f;
+    FrameBuilder builder(4, format);
+    const std::vector<glm::dvec3> triangle{{0, 0, depth}, {8, 0, depth}, {0, 8, depth}};
+    builder.draw(triangle).flags |= bits({Flag::kDepthTest, Flag::kDepthWrite});
+    const std::uint32_t code = run_surface(builder.frame).codes.at(0, 0);
+    Command& moved = builder.draw(triangle);
+    moved.flags |= bits({Flag::kDepthTest, Flag::kDepthWrite, Flag::kPolygonOffset});
+    moved.depth_func = DepthFunc::kAlways;
+    moved.offset_units = units;
+    const std::uint32_t after = run_surface(builder.frame).codes.at(0, 0);
+    REQUIRE(std::int64_t{after} - code == (units > 0 ? 1 : -1));
+  }
+}
+
 // The sides of the clip volume: what they cut off is outside the viewport.
 TEST_CASE("nothing is drawn outside the viewport") {
   const auto drawn = [](const glm::vec4& viewport, bool bottom_left_rule) {

@@ -46,7 +46,7 @@ double polygon_offset(const DepthPlane& plane, double largest_depth, const Comma
     // 2^(e - 23), with e the exponent of the largest depth; float32 has 23 bits after the point.
     if (largest_depth > 0) step = std::ldexp(1.0, std::ilogb(largest_depth) - 23);
   } else {
-    step = std::ldexp(1.0, -unorm_bits(storage));
+    step = 1 / (std::ldexp(1.0, unorm_bits(storage)) - 1);
   }
   const double offset = slope * draw.offset_factor + step * draw.offset_units;
   if (draw.offset_clamp > 0) return std::min(offset, static_cast<double>(draw.offset_clamp));

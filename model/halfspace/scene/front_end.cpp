@@ -129,13 +129,15 @@ double FrontEnd::offset_of(const Polygon<Window>& polygon) const {
       slope = std::max(std::abs((u.z * v.y - v.z * u.y) / area), std::abs((v.z * u.x - u.z * v.x) / area));
     }
   }
-  double unit = std::ldexp(1.0, -unorm_bits(format_));
+  double unit = 0;
   if (format_ == DepthFormat::kFloat32) {
     double z_max = 0;
     for (std::size_t i = 0; i < polygon.size; ++i) {
       z_max = std::max(z_max, std::abs(polygon.v[i].z));
     }
     unit = z_max > 0 ? std::ldexp(1.0, std::ilogb(z_max) - 23) : 0;
+  } else {
+    unit = 1.0 / max_unorm_code(format_);  // a code; 2^-n is less and would leave some depths on theirs
   }
   const double offset = slope * draw_.offset_factor + unit * draw_.offset_units;
   const double clamp = draw_.offset_clamp;
