@@ -158,10 +158,8 @@ TEST_CASE("front_end: polygon offset is factor * slope + units * r, within its c
                ? std::bit_cast<float>(v.z)
                : v.z / std::ldexp(max_unorm_code(format), vertex_depth_fraction(format));
   };
-  CHECK(first_depth(DepthFormat::kUnorm24) ==
-        Approx(0.125 + 2.0 / 64 + 8.0 / 16777215).epsilon(1e-8));
-  CHECK(first_depth(DepthFormat::kUnorm16) ==
-        Approx(0.125 + 2.0 / 64 + 8.0 / 65535).epsilon(1e-8));
+  CHECK(first_depth(DepthFormat::kUnorm24) == Approx(0.125 + 2.0 / 64 + 8.0 / 16777215).epsilon(1e-8));
+  CHECK(first_depth(DepthFormat::kUnorm16) == Approx(0.125 + 2.0 / 64 + 8.0 / 65535).epsilon(1e-8));
   // float32: r = 2^(e - 23) of the largest depth, 0.625, whose e is -1
   CHECK(first_depth(DepthFormat::kFloat32) == static_cast<float>(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -24)));
   state.offset_clamp = 0.01f;

@@ -76,7 +76,7 @@ void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle
   }
 }
 
-void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& draw, const Widths& widths) {
+void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& draw) {
   if (draw.format == 0) {
     return;  // early_z does not look at it
   }
@@ -91,8 +91,7 @@ void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& 
   triangle.depth.bias = equation.bias;
   const auto format = static_cast<DepthFormat>(draw.format);
   make_depth_equation({ScreenVertex{0, 0, z[0]}, ScreenVertex{0, 0, z[1]}, ScreenVertex{0, 0, z[2]}},
-                      triangle.edge, equation.area2, widths.SubPixelBits, format,
-                      DepthInterpolator::kBarycentric, triangle.depth);
+                      triangle.edge, equation.area2, format, DepthInterpolator::kBarycentric, triangle.depth);
   const DepthEquationPacket legal = to_packet(triangle, format);
   demand_equal("equation.reciprocal", equation.reciprocal, legal.reciprocal, "which follows from area2");
   demand_equal("equation.shift", equation.shift, legal.shift, "which follows from area2");

@@ -280,7 +280,7 @@ class Chain final : public UnitChain {
 
   void check_kept(const DepthEquationPacket& equation, const DrawStatePacket& draw) const {
     check_draw(draw);
-    check_equation(equation, draw, widths_);
+    check_equation(equation, draw);
     if (draw.test != 0) {
       static_cast<void>(context_.surfaces.of_draw(draw));
     }

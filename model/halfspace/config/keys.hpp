@@ -80,7 +80,7 @@
   BEGIN(depth)                                                                                               \
     KEY(depth., interpolator, DepthInterpolator, DepthInterpolator::kBarycentric,                            \
         one_of("plane", "barycentric"), "", function,                                                        \
-        "barycentric = within one unit of the last place, plane = cheaper, wrong on slivers")                \
+        "plane = additions alone for a sample, barycentric = products; both within one unit of the last place")                \
   END(depth)                                                                                                 \
   BEGIN(z_cache)                                                                                             \
     MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \

@@ -1,17 +1,9 @@
-/// Depth at a sample from the depth equation of its triangle: the two ways that hardware offers. Cost, error
-/// and the proof of the bounds: docs/numerics.md.
-///
-/// - barycentric: z = z0 + w1 (z1 - z0) + w2 (z2 - z0) with w_i = E_i / 2A by one reciprocal a triangle; on
-///   float32 surfaces the sum of the three products w_i z_i, none of which is negative, so nothing cancels.
-///   Within one unit of the last stored place of the exact value, for every triangle.
-/// - plane: z = origin + x dx + y dy with rounded gradients. Cheap a sample; wrong on slivers, whose
-///   gradients saturate.
-///
-/// Both clamp the result to the range of the three vertices.
+/// Depth at a sample from the depth equation of its triangle: the two ways that hardware offers, plane
+/// (depth_plane.hpp) and barycentric (depth_barycentric.hpp). Both keep the result between the depths of the
+/// three vertices. Cost, error and the proof of the bounds: docs/numerics.md.
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 
 #include "halfspace/numerics/depth.hpp"
@@ -21,43 +13,10 @@ namespace halfspace {
 
 enum class DepthInterpolator : std::uint8_t { kPlane, kBarycentric };
 
-inline constexpr int kWeightBits = 30;     ///< fraction bits of a barycentric weight in [0, 1]
-inline constexpr int kPlaneFraction = 16;  ///< fraction bits of the plane below a vertex depth
-inline constexpr int kPlaneLimitBits =
-    46;  ///< gradients and origin saturate at +-2^46 in units of 2^-kPlaneFraction
-
 /// Fills the fields of `out` that the interpolator and the format use. `v` in positive order, vertex i
 /// opposite to edge[i]; out.bias must be set; area2 > 0 is twice the area in squared sub-pixel units.
 void make_depth_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge,
-                         std::int64_t area2, int sub_pixel_bits, DepthFormat format,
-                         DepthInterpolator interpolator, DepthEquation& out);
-
-/// An edge value on the scale on which 2A has 32 bits.
-inline std::uint64_t scale_weight(const DepthEquation& eq, std::int64_t e) {
-  const auto value = static_cast<std::uint64_t>(e);
-  return eq.shift >= 0 ? value >> eq.shift : value << -eq.shift;
-}
-
-/// E / 2A with kWeightBits fraction bits, at most 2^-29 too small.
-inline std::int64_t weight(const DepthEquation& eq, std::int64_t e) {
-  return static_cast<std::int64_t>((scale_weight(eq, e) * eq.reciprocal) >> (63 - kWeightBits));
-}
-
-/// Stored code at a covered sample of a unorm surface. e1 and e2 are the unbiased edge values.
-inline std::uint32_t barycentric_unorm(const DepthEquation& eq, int fraction, std::int64_t e1,
-                                       std::int64_t e2) {
-  const std::int64_t z0 = eq.z[0];
-  const std::int64_t sum =
-      (z0 << kWeightBits) + weight(eq, e1) * (eq.z[1] - z0) + weight(eq, e2) * (eq.z[2] - z0);
-  const int below = kWeightBits + fraction;
-  const std::int64_t code = (sum + (std::int64_t{1} << (below - 1))) >> below;
-  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(code, eq.min_code, eq.max_code));
-}
-
-/// Stored bits at a covered sample of a float32 surface.
-std::uint32_t barycentric_float(const DepthEquation& eq, std::int64_t e1, std::int64_t e2);
-
-/// Stored code at pixel (x, y).
-std::uint32_t plane_code(const DepthEquation& eq, DepthFormat format, std::int32_t x, std::int32_t y);
+                         std::int64_t area2, DepthFormat format, DepthInterpolator interpolator,
+                         DepthEquation& out);
 
 }  // namespace halfspace

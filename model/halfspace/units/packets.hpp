@@ -33,21 +33,32 @@ struct Edge {
   std::int64_t c = 0;  ///< E at the centre of pixel (0, 0), less 1 unless the edge owns its samples
 };
 
+/// Holds the widest gradient. Everything is modulo a power of two, so there is no sign.
+__extension__ using Modular = unsigned __int128;
+
+/// The plane of a triangle's depth, modulo powers of two; see units/depth_plane.hpp.
+struct PlaneEquation {
+  Modular dx = 0;  ///< change for 1/2^SubPixelBits pixel in x, kGradientFraction bits below a word
+  Modular dy = 0;
+  std::int64_t z = 0;  ///< word at vertex 0
+  std::int32_t x = 0;  ///< where vertex 0 is, in 1/2^SubPixelBits pixel
+  std::int32_t y = 0;
+  std::int64_t low = 0;  ///< words of the nearest and the farthest vertex: no sample leaves them
+  std::int64_t high = 0;
+  std::int16_t exponent = 0;  ///< float32: 1.0 as a word is 2^exponent
+};
+
 /// What early_z needs to know of a triangle to interpolate depth; see units/depth_interpolator.hpp. Vertex i
 /// is opposite to edge i, so E_i / 2A is its weight.
 struct DepthEquation {
   std::array<std::uint32_t, 3> z{};    ///< vertex depths
   std::array<std::uint8_t, 3> bias{};  ///< 1 where the fill rule lowered c of the edge
   std::int64_t area2 = 0;              ///< 2A, the sum of the three unbiased E
-  std::uint32_t reciprocal = 0;        ///< barycentric: (2^63 - 1) / (2A scaled to 32 bits)
-  std::int8_t shift = 0;               ///< barycentric: E >> shift is on the scale of the 32-bit 2A
-  std::int64_t origin = 0;  ///< plane: z at the centre of pixel (x, y), with kPlaneFraction more bits
-  std::int64_t dx = 0;      ///< plane: change of z for one pixel in x, on the same scale
-  std::int64_t dy = 0;
-  std::int32_t x = 0;  ///< plane: the pixel that holds vertex 0
-  std::int32_t y = 0;
   std::uint32_t min_code = 0;  ///< stored codes of the nearest and the farthest vertex: no sample leaves them
   std::uint32_t max_code = 0;
+  std::uint32_t reciprocal = 0;  ///< barycentric: (2^63 - 1) / (2A scaled to 32 bits)
+  std::int8_t shift = 0;         ///< barycentric: E >> shift is on the scale of the 32-bit 2A
+  PlaneEquation plane;           ///< plane
 };
 
 /// Inclusive pixel rectangle; empty when a last is smaller than its first.

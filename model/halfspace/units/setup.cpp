@@ -88,8 +88,7 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   }
   out.triangle = in.triangle;
   if (state.depth_format != DepthFormat::kNone) {
-    make_depth_equation(v, out.edge, area2, state.sub_pixel_bits, state.depth_format, state.interpolator,
-                        out.depth);
+    make_depth_equation(v, out.edge, area2, state.depth_format, state.interpolator, out.depth);
   }
   return SetupVerdict::kDrawn;
 }
