@@ -1,11 +1,14 @@
 // Depth at the samples of a beat: depth_sample for each, and what they share, each part of it computed in the cycle
-// before the stage that needs it. Latency is 7 cycles; a beat a cycle; nothing stalls.
+// before the stage that needs it. A beat a cycle; nothing stalls.
 
 module depth_interpolator
   import raster_pkg::*;
+  import depth_pkg::*;
 #(
   /// Quads of a beat, 1 or more. Each costs four samples, with 6 multipliers each.
-  parameter int unsigned Quads = TestWidth
+  parameter int unsigned Quads = TestWidth,
+  /// Cycles to the codes, 9 or more. Those above are registers at the end.
+  parameter int unsigned Latency = 9
 ) (
   input  logic                                  clk_i,
 
@@ -22,7 +25,7 @@ module depth_interpolator
   output logic [4*Quads-1:0] [CodeBits-1:0]     code_o
 );
 
-  localparam int unsigned Stages = 8;
+  localparam int unsigned Stages = 10;
   localparam int unsigned QuadLog2 = TileLog2 - 1;
   localparam int unsigned WeightBits = 30; // as in depth_sample
   localparam logic [FormatBits-1:0] Unorm16 = 1;
@@ -79,15 +82,26 @@ module depth_interpolator
   logic [4:0] [ShiftBits-1:0]            shift_q;
   logic [Stages-1:0] [CodeBits-1:0]      min_code, max_code;
   logic [Stages-2:0] [CodeBits-1:0]      min_code_q, max_code_q;
-  logic [4:0] [2:0] [CodeBits-1:0]       z;
-  logic [3:0] [2:0] [CodeBits-1:0]       z_q;
+  word_t [7:0]                           offset;
+  word_t [6:0]                           offset_q;
+  exponent_t [7:0]                       exponent;
+  exponent_t [6:0]                       exponent_q;
+  logic [5:0] [4:0]                      cut;
+  logic [4:0] [4:0]                      cut_q;
+  logic [4:1] [2:0] [CodeBits-1:0]       z_q;
+
+  // Depths beyond [0, 1] lose bits, so that the difference of two has 32 all the same.
+  function automatic logic [CodeBits-1:0] kept(vertex_depth_t z, logic [4:0] lost);
+    return CodeBits'(z >>> lost);
+  endfunction
 
   assign reciprocal = {reciprocal_q, equation_i.reciprocal};
   assign shift      = {shift_q, equation_i.shift};
   assign min_code   = {min_code_q, equation_i.min_code};
   assign max_code   = {max_code_q, equation_i.max_code};
-  assign z          = {z_q, CodeBits'(equation_i.z[2]), CodeBits'(equation_i.z[1]),
-                       CodeBits'(equation_i.z[0])};
+  assign offset     = {offset_q, equation_i.offset};
+  assign exponent   = {exponent_q, equation_i.exponent};
+  assign cut        = {cut_q, equation_i.beyond ? 5'(equation_i.exponent) + 5'd1 : 5'd0};
 
   always_ff @(posedge clk_i) begin
     for (int unsigned i = 0; i < Stages - 1; i++) begin
@@ -106,19 +120,36 @@ module depth_interpolator
         shift_q[i] <= shift[i];
       end
     end
-    for (int unsigned i = 0; i < 4; i++) begin
+    for (int unsigned i = 0; i < 5; i++) begin
       if (valid[i]) begin
-        z_q[i] <= z[i];
+        cut_q[i] <= cut[i];
+      end
+    end
+    for (int unsigned i = 0; i < 7; i++) begin
+      if (valid[i]) begin
+        offset_q[i]   <= offset[i];
+        exponent_q[i] <= exponent[i];
+      end
+    end
+    for (int unsigned i = 0; i < 3; i++) begin
+      if (valid[0]) begin
+        z_q[1][i] <= kept(equation_i.z[i], cut[0]);
+      end
+    end
+    for (int unsigned i = 1; i < 4; i++) begin
+      if (valid[i]) begin
+        z_q[i+1] <= z_q[i];
       end
     end
   end
 
-  // For stages 2 to 6: 2A; exponents; reciprocal or mantissas; differences; z0 and half a code.
+  // For stages 2 to 6: 2A; exponents; reciprocal or mantissas; differences and signs; z0, offset and half a code.
   edge_t              area2_q;
-  logic [2:0] [7:0]   exponent_q;
+  logic [2:0] [7:0]   z_exponent_q;
   logic [2:0] [31:0]  factor_q;
   logic signed [31:0] difference1_q, difference2_q;
-  logic signed [63:0] offset_q;
+  logic [2:0]         negative_q;
+  logic signed [63:0] base_q;
 
   always_ff @(posedge clk_i) begin
     if (valid[0]) begin
@@ -126,19 +157,20 @@ module depth_interpolator
     end
     for (int unsigned i = 0; i < 3; i++) begin
       if (valid[1] && is_float[1]) begin
-        exponent_q[i] <= z[1][i][30:23] == '0 ? 8'd1 : z[1][i][30:23];
+        z_exponent_q[i] <= exponent_of(z_q[1][i][30:23]);
       end
       if (valid[2]) begin
-        factor_q[i] <= is_float[2] ? {8'b0, |z[2][i][30:23], z[2][i][22:0]} : reciprocal[2];
+        factor_q[i] <= is_float[2] ? {8'b0, |z_q[2][i][30:23], z_q[2][i][22:0]} : reciprocal[2];
       end
     end
     if (valid[3]) begin
-      difference1_q <= $signed(z[3][1]) - $signed(z[3][0]);
-      difference2_q <= $signed(z[3][2]) - $signed(z[3][0]);
+      difference1_q <= $signed(z_q[3][1]) - $signed(z_q[3][0]);
+      difference2_q <= $signed(z_q[3][2]) - $signed(z_q[3][0]);
+      negative_q    <= {z_q[3][2][31], z_q[3][1][31], z_q[3][0][31]};
     end
     if (valid[4]) begin
-      offset_q <= ($signed({32'b0, z[4][0]}) <<< WeightBits)
-                  + (64'sd1 <<< (is_unorm16[4] ? 44 : 36));
+      base_q <= (64'($signed(z_q[4][0])) <<< WeightBits)
+                + ((offset[4] + (is_unorm16[4] ? 64'sd16384 : 64'sd64)) <<< (6'(WeightBits) - 6'(cut[4])));
     end
   end
 
@@ -163,26 +195,42 @@ module depth_interpolator
         .step2_i       ((s % 2 == 1 ? a[1] : '0) + (s / 2 == 1 ? b[1] : '0)),
         .area2_i       (area2_q),
         .shift3_i      (shift[2]),
-        .exponent_i    (exponent_q),
+        .exponent_i    (z_exponent_q),
         .factor_i      (factor_q),
         .difference1_i (difference1_q),
         .difference2_i (difference2_q),
+        .negative_i    (negative_q),
         .unorm16_i     (is_unorm16[5]),
-        .offset_i      (offset_q),
+        .cut_i         (cut[5]),
+        .base_i        (base_q),
         .min_code6_i   (min_code[5]),
         .max_code6_i   (max_code[5]),
         .shift6_i      (shift[5]),
         .reciprocal_i  (reciprocal[6]),
-        .min_code8_i   (min_code[7]),
-        .max_code8_i   (max_code[7]),
+        .offset_i      (offset[7]),
+        .exponent8_i   (exponent[7]),
+        .min_code10_i  (min_code[9]),
+        .max_code10_i  (max_code[9]),
         .code_o        (code[4*q+s])
       );
     end
   end
 
-  assign code_o = has_depth[7] ? code : '0;
+  // Registers at the end.
+  localparam int unsigned Extra = Latency - (Stages - 1);
+  logic [Extra:0] [4*Quads-1:0] [CodeBits-1:0] late;
+
+  assign late[0] = has_depth[Stages-1] ? code : '0;
+
+  for (genvar i = 0; i < Extra; i++) begin : gen_late
+    always_ff @(posedge clk_i) begin
+      late[i+1] <= late[i];
+    end
+  end
+
+  assign code_o = late[Extra];
 
   logic unused_valid;
-  assign unused_valid = ^{valid[7:5], is_unorm16[7:6]};
+  assign unused_valid = ^{valid[9], is_unorm16[9:6]};
 
 endmodule

@@ -1,20 +1,21 @@
-// Depth at one sample by barycentric weights, in eight stages: the stored code of a unorm16, unorm24 or float32
-// surface, bit for bit that of model/halfspace/units/depth_interpolator.hpp. Seven registers; the last stage is wires.
+// Depth at one sample by barycentric weights, in ten stages: the stored code of a unorm16, unorm24 or float32 surface,
+// bit for bit that of model/halfspace/units/depth_barycentric.hpp. Nine registers; the last stage is wires.
 //
-// unorm: z0 + w1 (z1 - z0) + w2 (z2 - z0), w_i = E_i / 2A by the reciprocal of 2A, rounded and clamped.
-// float32: the sum of the three E_i z_i, none of which is negative, aligned to the largest; times the reciprocal,
-// rounded to 24 bits and clamped. Both share the first multipliers.
+// unorm: z0 + w1 (z1 - z0) + w2 (z2 - z0), w_i = E_i / 2A by the reciprocal of 2A, and the offset, rounded and clamped.
+// float32: the sum of the three E_i z_i, aligned to the largest; times the reciprocal; with the offset, if there is one,
+// as a word; rounded to 24 bits and clamped. Both share the first multipliers.
 //
 // Registers are loaded only for a quad that has depth, and only those that its kind of format needs.
 
 module depth_sample
   import raster_pkg::*;
+  import depth_pkg::*;
 (
   input  logic                      clk_i,
 
   // What all samples of a beat share comes from depth_interpolator; the number is that of the stage that it is for.
   // Bit i of float_i: the beat in stage i + 1 is float32.
-  input  logic [7:0]                float_i,
+  input  logic [9:0]                float_i,
 
   // Stage 1: this sample is to be computed; unbiased E of edges 1 and 2 at the first sample of its quad, and how much
   // more they are at this one.
@@ -34,13 +35,16 @@ module depth_sample
   // Stage 4: the reciprocal of 2A, or the mantissas of the vertices' depths.
   input  logic [2:0] [31:0]         factor_i,
 
-  // Stage 5: z1 - z0, z2 - z0.
+  // Stage 5: z1 - z0, z2 - z0; which of the vertices' depths are negative.
   input  logic signed [31:0]        difference1_i,
   input  logic signed [31:0]        difference2_i,
+  input  logic [2:0]                negative_i,
 
-  // Stage 6: unorm16 and not unorm24; z0 on the scale of the terms, with half a code for the rounding.
+  // Stage 6: unorm16 and not unorm24; bits that the vertices' depths have lost; z0 on the scale of the terms, with
+  // the offset and half a code for the rounding.
   input  logic                      unorm16_i,
-  input  logic signed [63:0]        offset_i,
+  input  logic [4:0]                cut_i,
+  input  logic signed [63:0]        base_i,
   input  logic [CodeBits-1:0]       min_code6_i,
   input  logic [CodeBits-1:0]       max_code6_i,
   input  shift_t                    shift6_i,
@@ -48,48 +52,27 @@ module depth_sample
   // Stage 7.
   input  logic [ReciprocalBits-1:0] reciprocal_i,
 
-  // Stage 8.
-  input  logic [CodeBits-1:0]       min_code8_i,
-  input  logic [CodeBits-1:0]       max_code8_i,
+  // Stage 8: the offset as a word.
+  input  word_t                     offset_i,
+  input  exponent_t                 exponent8_i,
 
-  // Stage 8. Means nothing where valid_i was low.
+  // Stage 10.
+  input  logic [CodeBits-1:0]       min_code10_i,
+  input  logic [CodeBits-1:0]       max_code10_i,
+
+  // Stage 10. Means nothing where valid_i was low.
   output logic [CodeBits-1:0]       code_o
 );
 
   localparam int unsigned WeightBits = 30;   // fraction bits of a weight
-  // Signed; holds every sum of exponents of covered samples.
-  localparam int unsigned ExponentBits = 11;
-
-  typedef logic signed [ExponentBits-1:0] exponent_t;
-  localparam exponent_t LeastExponent = {1'b1, {(ExponentBits - 1) {1'b0}}};
-
-  // A number shifted left until its top bit is at bit 31 of `top`, by `zeros`; 63 for 0 and 1.
-  typedef struct packed {
-    logic [5:0]  zeros;
-    logic [31:0] top;
-  } normalized_t;
-
-  function automatic normalized_t normalize(logic [63:0] value);
-    normalized_t result;
-    logic [63:0] shifted;
-    shifted      = value;
-    result.zeros = '0;
-    for (int unsigned level = 6; level > 0; level--) begin
-      if (shifted >> (64 - (1 << (level - 1))) == '0) begin
-        result.zeros |= 6'(1 << (level - 1));
-        shifted <<= 1 << (level - 1);
-      end
-    end
-    result.top = shifted[63:32];
-    return result;
-  endfunction
+  localparam place_t LeastPlace = {1'b1, {(PlaceBits - 1) {1'b0}}};
 
   // Stages whose registers are loaded.
-  logic [7:0] valid, is_float, is_unorm;
-  logic [6:0] valid_q;
+  logic [9:0] valid, is_float, is_unorm;
+  logic [8:0] valid_q;
 
   always_ff @(posedge clk_i) begin
-    valid_q <= valid[6:0];
+    valid_q <= valid[8:0];
   end
 
   assign valid    = {valid_q, valid_i};
@@ -119,7 +102,7 @@ module depth_sample
 
   // 3: on the scale of the 32-bit 2A for unorm; with their top bit at bit 31 for float32. Exponents are of E_i z_i.
   logic [31:0] operand0_q, operand1_q, operand2_q;
-  exponent_t   exponent3_0_q, exponent3_1_q, exponent3_2_q;
+  place_t      exponent3_0_q, exponent3_1_q, exponent3_2_q;
 
   function automatic logic [31:0] scaled(edge_t weight, shift_t shift);
     logic [63:0] value;
@@ -129,9 +112,9 @@ module depth_sample
     left  = -shift;
     return shift[ShiftBits-1] ? 32'(value << left) : 32'(value >> right);
   endfunction
-  function automatic exponent_t product_exponent(logic [5:0] zeros, logic [7:0] exponent);
-    return exponent_t'(32 - 150) - exponent_t'($signed({1'b0, zeros}))
-           + exponent_t'($signed({1'b0, exponent}));
+  function automatic place_t product_exponent(logic [5:0] zeros, logic [7:0] exponent);
+    return place_t'(32 - 150) - place_t'($signed({1'b0, zeros}))
+           + place_t'($signed({1'b0, exponent}));
   endfunction
 
   always_ff @(posedge clk_i) begin
@@ -144,9 +127,9 @@ module depth_sample
       automatic normalized_t normal0 = normalize(64'(weight0_q));
       automatic normalized_t normal1 = normalize(64'(weight1_q));
       automatic normalized_t normal2 = normalize(64'(weight2_q));
-      operand0_q    <= normal0.top;
-      operand1_q    <= normal1.top;
-      operand2_q    <= normal2.top;
+      operand0_q    <= normal0.value[63:32];
+      operand1_q    <= normal1.value[63:32];
+      operand2_q    <= normal2.value[63:32];
       exponent3_0_q <= product_exponent(normal0.zeros, exponent_i[0]);
       exponent3_1_q <= product_exponent(normal1.zeros, exponent_i[1]);
       exponent3_2_q <= product_exponent(normal2.zeros, exponent_i[2]);
@@ -155,7 +138,7 @@ module depth_sample
 
   // 4: weights, or products with the mantissas.
   logic [63:0] product0_q, product1_q, product2_q;
-  exponent_t   exponent4_0_q, exponent4_1_q, exponent4_2_q;
+  place_t      exponent4_0_q, exponent4_1_q, exponent4_2_q;
 
   always_ff @(posedge clk_i) begin
     if (valid[3]) begin
@@ -172,22 +155,24 @@ module depth_sample
 
   // 5: unorm terms; the float32 sum on the scale of its largest product.
   logic signed [63:0] term1_q, term2_q;
-  logic [63:0]        sum_q;
-  exponent_t          top_q;
+  logic signed [63:0] sum_q;
+  place_t             top_q;
 
   function automatic logic signed [63:0] term(logic [WeightBits:0] weight,
                                               logic signed [31:0] difference);
     return $signed({33'b0, weight}) * 64'(difference);
   endfunction
   // Products that are 0 have no say in the scale.
-  function automatic exponent_t larger(exponent_t top, logic [63:0] product, exponent_t exponent);
+  function automatic place_t larger(place_t top, logic [63:0] product, place_t exponent);
     return product != '0 && exponent > top ? exponent : top;
   endfunction
-  function automatic logic [63:0] aligned(logic [63:0] product, exponent_t exponent,
-                                          exponent_t top);
-    logic [ExponentBits-1:0] shift;
+  function automatic logic signed [63:0] aligned(logic [63:0] product, logic negative,
+                                                 place_t exponent, place_t top);
+    logic [PlaceBits-1:0] shift;
+    logic signed [63:0]   moved;
     shift = top - exponent;
-    return shift < 64 ? product >> shift[5:0] : '0;
+    moved = shift < 64 ? product >> shift[5:0] : '0;
+    return negative ? -moved : moved;
   endfunction
 
   always_ff @(posedge clk_i) begin
@@ -196,19 +181,21 @@ module depth_sample
       term2_q <= term(product2_q[63:63-WeightBits], difference2_i);
     end
     if (is_float[4]) begin
-      automatic exponent_t top0 = larger(LeastExponent, product0_q, exponent4_0_q);
-      automatic exponent_t top1 = larger(top0, product1_q, exponent4_1_q);
-      automatic exponent_t top = larger(top1, product2_q, exponent4_2_q);
-      sum_q <= aligned(product0_q, exponent4_0_q, top) + aligned(product1_q, exponent4_1_q, top)
-               + aligned(product2_q, exponent4_2_q, top);
+      automatic place_t top0 = larger(LeastPlace, product0_q, exponent4_0_q);
+      automatic place_t top1 = larger(top0, product1_q, exponent4_1_q);
+      automatic place_t top = larger(top1, product2_q, exponent4_2_q);
+      sum_q <= aligned(product0_q, negative_i[0], exponent4_0_q, top)
+               + aligned(product1_q, negative_i[1], exponent4_1_q, top)
+               + aligned(product2_q, negative_i[2], exponent4_2_q, top);
       top_q <= top;
     end
   end
 
-  // 6: the unorm code; the float32 sum with its top bit at bit 31.
-  logic [CodeBits-1:0] unorm6_q, unorm7_q;
+  // 6: the unorm code; the magnitude of the float32 sum with its top bit at bit 31.
+  logic [CodeBits-1:0] unorm6_q, unorm7_q, unorm8_q, unorm9_q;
   logic [31:0]         mantissa_q;
-  exponent_t           exponent6_q, exponent7_q;
+  place_t              place6_q, place7_q, place8_q, place9_q;
+  logic                negative6_q, negative7_q;
 
   function automatic logic [CodeBits-1:0] clamped(logic signed [63:0] code,
                                                   logic [CodeBits-1:0] low,
@@ -221,18 +208,19 @@ module depth_sample
 
   always_ff @(posedge clk_i) begin
     if (is_unorm[5]) begin
-      automatic logic signed [63:0] sum = offset_i + term1_q + term2_q;
-      unorm6_q <= clamped(unorm16_i ? sum >>> 45 : sum >>> 37, min_code6_i, max_code6_i);
+      automatic logic signed [63:0] sum = base_i + term1_q + term2_q;
+      unorm6_q <= clamped(sum >>> ((unorm16_i ? 6'd45 : 6'd37) - 6'(cut_i)), min_code6_i, max_code6_i);
     end
     if (is_float[5]) begin
-      automatic normalized_t normal = normalize(sum_q);
-      mantissa_q  <= normal.top;
-      exponent6_q <= top_q + exponent_t'(32 - 63) - exponent_t'($signed({1'b0, normal.zeros}))
-                     - exponent_t'(shift6_i);
+      automatic normalized_t normal = normalize(sum_q[63] ? -sum_q : sum_q);
+      mantissa_q  <= normal.value[63:32];
+      negative6_q <= sum_q[63];
+      place6_q    <= top_q + place_t'(32 - 63) - place_t'($signed({1'b0, normal.zeros}))
+                     - place_t'(shift6_i);
     end
   end
 
-  // 7: divided by 2A.
+  // 7: divided by 2A. Both factors have their top bit set, or are 0.
   logic [63:0] quotient_q;
 
   always_ff @(posedge clk_i) begin
@@ -241,39 +229,68 @@ module depth_sample
     end
     if (is_float[6]) begin
       quotient_q  <= mantissa_q * reciprocal_i;
-      exponent7_q <= exponent6_q;
+      negative7_q <= negative6_q;
+      place7_q    <= place6_q;
     end
   end
 
-  // 8: the nearest float, halves upwards. Both factors have their top bit set, so the product has 63 or 64 bits.
-  function automatic logic [CodeBits-1:0] nearest(logic [63:0] quotient, exponent_t exponent);
-    exponent_t   width, normal, subnormal, cut;
-    logic [5:0]  shift;
-    logic [31:0] rounded;
-    logic [8:0]  place;
-    width     = quotient[63] ? exponent_t'(64) : exponent_t'(63);
-    normal    = width - exponent_t'(24);
-    subnormal = exponent_t'(-149) - exponent;
-    cut       = normal > subnormal ? normal : subnormal;
-    shift     = 6'(cut - exponent_t'(1));
-    rounded   = 32'(((quotient >> shift) + 64'd1) >> 1);
-    place     = 9'(exponent + cut + exponent_t'(149));
-    return quotient == '0 || cut > width ? '0 : {place, 23'b0} + rounded;
-  endfunction
+  // 8: with the offset, both as words; 0 if negative.
+  logic [63:0] depth8_q;
+  word_t       word;
+  logic signed [WordBits:0] moved;
+  place_t      to_word, word_place;
 
+  always_comb begin
+    word_place = place_t'(exponent8_i) - place_t'(63);
+    to_word    = word_place - place7_q;
+    word       = to_word < place_t'(64) ? word_t'(quotient_q >> to_word[5:0]) : '0;
+    word       = negative7_q ? -word : word;
+    moved      = (WordBits + 1)'(word) + (WordBits + 1)'(offset_i);
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (is_unorm[7]) begin
+      unorm8_q <= unorm7_q;
+    end
+    if (is_float[7]) begin
+      if (offset_i != '0) begin
+        depth8_q <= moved[WordBits] ? '0 : moved[WordBits-1:0];
+        place8_q <= word_place;
+      end else begin
+        depth8_q <= negative7_q ? '0 : quotient_q;
+        place8_q <= place7_q;
+      end
+    end
+  end
+
+  // 9: with its top bit at bit 63.
+  logic [63:0] depth9_q;
+
+  always_ff @(posedge clk_i) begin
+    if (is_unorm[8]) begin
+      unorm9_q <= unorm8_q;
+    end
+    if (is_float[8]) begin
+      automatic normalized_t normal = normalize(depth8_q);
+      depth9_q <= normal.value;
+      place9_q <= place8_q - place_t'($signed({1'b0, normal.zeros}));
+    end
+  end
+
+  // 10: the nearest float.
   logic [CodeBits-1:0] float_code;
 
   always_comb begin
-    code_o     = unorm7_q;
+    code_o     = unorm9_q;
     float_code = '0;
-    if (is_float[7]) begin
-      float_code = nearest(quotient_q, exponent7_q);
-      code_o     = float_code < min_code8_i ? min_code8_i
-                   : float_code > max_code8_i ? max_code8_i : float_code;
+    if (is_float[9]) begin
+      float_code = nearest_float(depth9_q, place9_q);
+      code_o     = float_code < min_code10_i ? min_code10_i
+                   : float_code > max_code10_i ? max_code10_i : float_code;
     end
   end
 
   logic unused_valid;
-  assign unused_valid = ^{is_float[1:0], is_unorm[1:0], is_unorm[3], is_unorm[7]};
+  assign unused_valid = ^{is_float[1:0], is_unorm[1:0], is_unorm[3], is_unorm[9]};
 
 endmodule

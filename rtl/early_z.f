@@ -1,4 +1,5 @@
 raster_pkg.sv
+depth_pkg.sv
 credit_fifo.sv
 sync_ram.sv
 depth_sample.sv

@@ -5,7 +5,8 @@
 // computes depth while memory answers. z_test compares and writes where all is there. Between them are the pending
 // store and a FIFO with credits, so neither the lookup nor the interpolator ever stalls in mid-pipe.
 //
-// The first beat of a burst is taken in cycle f, tested not before f + 12, and leaves 2 cycles after its test.
+// The first beat of a burst is taken in cycle f, tested not before f + 5 + InterpolatorLatency, and leaves 2 cycles
+// after its test.
 
 module early_z
   import raster_pkg::*;
@@ -14,6 +15,8 @@ module early_z
   parameter int unsigned PendingDepth = 32,
   /// Bursts in the output FIFO, 2 or more: a tile's worth of beats each.
   parameter int unsigned FifoDepth = 16,
+  /// Cycles to interpolate depth, 9 or more.
+  parameter int unsigned InterpolatorLatency = 9,
   /// Lines of the z cache, a power of two, at least ZParts * Ways.
   parameter int unsigned Lines = 128,
   /// Lines of a set: a power of two.
@@ -92,7 +95,6 @@ module early_z
   localparam int unsigned Slices = QuadWidth / TestWidth;
   localparam int unsigned SliceBits = Slices > 1 ? $clog2(Slices) : 1;
   localparam int unsigned CountBits = $clog2(PendingDepth + 1);
-  localparam int unsigned InterpolatorLatency = 7;
 
   localparam logic [FormatBits-1:0] Unorm16 = 1;
   localparam logic [FuncBits-1:0] Never = 0;
@@ -397,7 +399,8 @@ module early_z
   logic   coded_valid, coded_taken, unused_codes_empty;
 
   depth_interpolator #(
-    .Quads (TestWidth)
+    .Quads   (TestWidth),
+    .Latency (InterpolatorLatency)
   ) u_interpolator (
     .clk_i      (clk_i),
     .valid_i    (valid_q[0]),

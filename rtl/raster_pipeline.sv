@@ -22,6 +22,7 @@ module raster_pipeline
   parameter int unsigned QuadFifo = 4,
   parameter int unsigned PendingDepth = 32,
   parameter int unsigned EarlyZFifo = 16,
+  parameter int unsigned InterpolatorLatency = 9,
   parameter int unsigned Lines = 128,
   parameter int unsigned Ways = 4,
   parameter int unsigned MissesInFlight = 16,
@@ -190,16 +191,17 @@ module raster_pipeline
   assign idle_o     = units_idle & early_z_idle;
 
   early_z #(
-    .PendingDepth   (PendingDepth),
-    .FifoDepth      (EarlyZFifo),
-    .Lines          (Lines),
-    .Ways           (Ways),
-    .MissesInFlight (MissesInFlight),
-    .WriteBuffers   (WriteBuffers),
-    .ReadBytes      (ReadBytes),
-    .WriteBytes     (WriteBytes),
-    .ClearTiles     (ClearTiles),
-    .MemoryTiles    (MemoryTiles)
+    .PendingDepth        (PendingDepth),
+    .FifoDepth           (EarlyZFifo),
+    .InterpolatorLatency (InterpolatorLatency),
+    .Lines               (Lines),
+    .Ways                (Ways),
+    .MissesInFlight      (MissesInFlight),
+    .WriteBuffers        (WriteBuffers),
+    .ReadBytes           (ReadBytes),
+    .WriteBytes          (WriteBytes),
+    .ClearTiles          (ClearTiles),
+    .MemoryTiles         (MemoryTiles)
   ) u_early_z (
     .clk_i             (clk_i),
     .rst_ni            (rst_ni),

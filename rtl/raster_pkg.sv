@@ -57,8 +57,12 @@ package raster_pkg;
   parameter int unsigned SlotBits = 8;
   // yes or no
   parameter int unsigned FlagBits = 1;
-  // depth of a vertex: a unorm code with a fraction below it, or a float32 without its sign
-  parameter int unsigned VertexDepthBits = 31;
+  // depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits
+  parameter int unsigned VertexDepthBits = 48;
+  // depth with the binary point behind the sign, on a scale of the triangle
+  parameter int unsigned WordBits = 64;
+  // power of two above all depths of a triangle, signed
+  parameter int unsigned ExponentBits = 9;
   // a stored depth code of any format
   parameter int unsigned CodeBits = 32;
   // (2^63 - 1) / (2A scaled to 32 bits)
@@ -81,15 +85,19 @@ package raster_pkg;
   parameter int unsigned TestSamples = 4 * TestWidth;
 
   typedef logic signed [CoordBits-1:0] coord_t;
+  typedef logic signed [VertexDepthBits-1:0] vertex_depth_t;
   typedef logic signed [EdgeBits-1:0] edge_t;
   typedef logic signed [StepBits-1:0] step_t;
   typedef logic signed [ShiftBits-1:0] shift_t;
+  typedef logic signed [ExponentBits-1:0] exponent_t;
+  typedef logic signed [WordBits-1:0] word_t;
 
   // front end -> setup: on the sub-pixel grid
   typedef struct packed {
     coord_t [2:0] x;
     coord_t [2:0] y;
-    logic [2:0] [VertexDepthBits-1:0] z;
+    vertex_depth_t [2:0] z;
+    vertex_depth_t offset;
   } screen_triangle_t;
 
   // the state of a draw, as it travels with its triangles
@@ -104,6 +112,8 @@ package raster_pkg;
     logic [PixelBits-1:0] y_first;
     logic [PixelBits-1:0] y_last;
     logic [FormatBits-1:0] format;
+    logic [CodeBits-1:0] least_code;
+    logic [CodeBits-1:0] most_code;
     logic [FlagBits-1:0] test;
     logic [FlagBits-1:0] write;
     logic [FuncBits-1:0] func;
@@ -127,11 +137,14 @@ package raster_pkg;
   typedef struct packed {
     step_t [1:0] a;
     step_t [1:0] b;
-    logic [2:0] [VertexDepthBits-1:0] z;
+    vertex_depth_t [2:0] z;
     logic [2:0] [FlagBits-1:0] bias;
     edge_t area2;
     logic [ReciprocalBits-1:0] reciprocal;
     shift_t shift;
+    logic [FlagBits-1:0] beyond;
+    exponent_t exponent;
+    word_t offset;
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
   } depth_equation_t;

@@ -1,9 +1,11 @@
 raster_pkg.sv
+depth_pkg.sv
 setup_pkg.sv
 credit_fifo.sv
 pipe_register.sv
 setup_cull.sv
 setup_edges.sv
+setup_depth.sv
 reciprocal_stage.sv
 reciprocal.sv
 setup.sv

@@ -104,29 +104,36 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 3 cycles later and 17 cycles later. The last has the credits, and is valid
-  // last; the others are taken with it.
+  // The parts of a slot: at the decision, 3, 5 and 17 cycles later. The last has the credits, and is valid last; the
+  // others are taken with it.
   typedef struct packed {
-    logic [2:0] [VertexDepthBits-1:0] z;
-    area_t                            area2;
-    shift_t                           shift;
-    bounds_t                          bounds;
-    draw_state_t                      state;
+    vertex_depth_t [2:0] z;
+    area_t               area2;
+    shift_t              shift;
+    bounds_t             bounds;
+    draw_state_t         state;
   } known_t;
 
   typedef struct packed {
-    edge_t [2:0]         e;
-    step_t [2:0]         a;
-    step_t [2:0]         b;
-    logic [2:0]          bias;
+    edge_t [2:0] e;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    logic [2:0]  bias;
+  } edges_t;
+
+  typedef struct packed {
+    logic                beyond;
+    exponent_t           exponent;
+    word_t               offset;
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
-  } edges_t;
+  } depth_t;
 
   known_t known_d, known;
   edges_t edges_d, edges;
+  depth_t depth_d, depth;
   shift_t shift;
-  logic   edges_valid, reciprocal_valid, reciprocal_kept, leave;
+  logic   edges_valid, depth_valid, reciprocal_valid, reciprocal_kept, leave;
   logic [ReciprocalBits-1:0] quotient;
 
   always_comb begin
@@ -144,18 +151,33 @@ module setup
     .clk_i              (clk_i),
     .rst_ni             (rst_ni),
     .valid_i            (draw),
-    .triangle_i         (verdict.triangle),
+    .x_i                (verdict.triangle.x),
+    .y_i                (verdict.triangle.y),
     .area2_i            (verdict.area2),
     .bounds_i           (verdict.bounds),
-    .format_i           (verdict.state.format),
     .bottom_left_rule_i (verdict.state.bottom_left_rule),
     .valid_o            (edges_valid),
     .e_o                (edges_d.e),
     .a_o                (edges_d.a),
     .b_o                (edges_d.b),
-    .bias_o             (edges_d.bias),
-    .min_code_o         (edges_d.min_code),
-    .max_code_o         (edges_d.max_code)
+    .bias_o             (edges_d.bias)
+  );
+
+  setup_depth u_depth (
+    .clk_i        (clk_i),
+    .rst_ni       (rst_ni),
+    .valid_i      (draw),
+    .z_i          (verdict.triangle.z),
+    .offset_i     (verdict.triangle.offset),
+    .format_i     (verdict.state.format),
+    .least_code_i (verdict.state.least_code),
+    .most_code_i  (verdict.state.most_code),
+    .valid_o      (depth_valid),
+    .beyond_o     (depth_d.beyond),
+    .exponent_o   (depth_d.exponent),
+    .offset_o     (depth_d.offset),
+    .min_code_o   (depth_d.min_code),
+    .max_code_o   (depth_d.max_code)
   );
 
   reciprocal #(
@@ -173,10 +195,11 @@ module setup
     .quotient_o (quotient)
   );
 
-  // All three count the same credits; one of them says so.
+  // All four count the same credits; one of them says so.
   logic fifo_empty;
   logic unused_known_ready, unused_known_valid, unused_known_empty;
   logic unused_edges_ready, unused_edges_valid, unused_edges_empty;
+  logic unused_depth_ready, unused_depth_valid, unused_depth_empty;
 
   credit_fifo #(
     .Width ($bits(known_t)),
@@ -208,6 +231,22 @@ module setup
     .pop_ready_i     (leave),
     .data_o          (edges),
     .empty_o         (unused_edges_empty)
+  );
+
+  credit_fifo #(
+    .Width ($bits(depth_t)),
+    .Depth (FifoDepth)
+  ) u_depth_fifo (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (unused_depth_ready),
+    .reserve_i       (draw),
+    .push_i          (depth_valid),
+    .data_i          (depth_d),
+    .pop_valid_o     (unused_depth_valid),
+    .pop_ready_i     (leave),
+    .data_o          (depth),
+    .empty_o         (unused_depth_empty)
   );
 
   credit_fifo #(
@@ -243,8 +282,11 @@ module setup
   assign equation_o.bias     = edges.bias;
   assign equation_o.area2    = edge_t'({1'b0, known.area2});
   assign equation_o.shift    = known.shift;
-  assign equation_o.min_code = edges.min_code;
-  assign equation_o.max_code = edges.max_code;
+  assign equation_o.beyond   = depth.beyond;
+  assign equation_o.exponent = depth.exponent;
+  assign equation_o.offset   = depth.offset;
+  assign equation_o.min_code = depth.min_code;
+  assign equation_o.max_code = depth.max_code;
   assign state_o             = known.state;
 
   assign activity_o = decide         ? SetupBusy

@@ -218,6 +218,7 @@ module setup_cull
       y_first: sized_q.y_first[PixelBits-1:0],
       y_last:  sized_q.y_last[PixelBits-1:0]
     };
+    verdict_o.triangle.offset = sized_q.triangle.offset;
     for (int unsigned i = 0; i < 3; i++) begin
       verdict_o.triangle.x[i] = pick(sized_q.triangle.x, order[i]);
       verdict_o.triangle.y[i] = pick(sized_q.triangle.y, order[i]);

@@ -1,4 +1,4 @@
-// Edge equations of a drawn triangle at the pixel where its walk starts, and the range of its depth codes.
+// Edge equations of a drawn triangle at the pixel where its walk starts.
 //
 // Three registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2. The
 // three unbiased E add up to 2A everywhere, which gives that of edge 0. Four multipliers of StepBits.
@@ -16,10 +16,10 @@ module setup_edges
   input  logic                  rst_ni,
 
   input  logic                  valid_i,
-  input  screen_triangle_t      triangle_i,
+  input  coord_t [2:0]          x_i,
+  input  coord_t [2:0]          y_i,
   input  area_t                 area2_i,
   input  bounds_t               bounds_i,
-  input  logic [FormatBits-1:0] format_i,
   input  logic                  bottom_left_rule_i,
 
   // Three cycles later.
@@ -27,12 +27,9 @@ module setup_edges
   output edge_t [2:0]           e_o,
   output step_t [2:0]           a_o,
   output step_t [2:0]           b_o,
-  output logic [2:0]            bias_o,
-  output logic [CodeBits-1:0]   min_code_o,
-  output logic [CodeBits-1:0]   max_code_o
+  output logic [2:0]            bias_o
 );
 
-  typedef logic [VertexDepthBits-1:0] depth_t;
   typedef logic [PixelBits-1:0] pixel_t;
 
   // Where the walk starts.
@@ -51,29 +48,14 @@ module setup_edges
   assign below = same_tile(bounds_i.x_first, bounds_i.x_last) &&
                  same_tile(bounds_i.y_first, bounds_i.y_last) ? InTile : InBlock;
 
-  // The least and the greatest of the vertex depths.
-  depth_t z_least, z_most;
-
-  always_comb begin
-    z_least = triangle_i.z[0];
-    z_most  = triangle_i.z[0];
-    for (int unsigned i = 1; i < 3; i++) begin
-      z_least = triangle_i.z[i] < z_least ? triangle_i.z[i] : z_least;
-      z_most  = triangle_i.z[i] > z_most ? triangle_i.z[i] : z_most;
-    end
-  end
-
   // First register. Vertex 0 lies on edge 1 and on edge 2, so both take the start relative to it.
   typedef struct packed {
-    step_t [2:0]           a;
-    step_t [2:0]           b;
-    step_t                 x;
-    step_t                 y;
-    area_t                 area2;
-    logic [FormatBits-1:0] format;
-    logic                  bottom_left_rule;
-    depth_t                z_least;
-    depth_t                z_most;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    step_t       x;
+    step_t       y;
+    area_t       area2;
+    logic        bottom_left_rule;
   } steps_t;
 
   steps_t steps_d, steps_q;
@@ -81,16 +63,13 @@ module setup_edges
 
   always_comb begin
     for (int unsigned i = 0; i < 3; i++) begin
-      steps_d.a[i] = step_t'(triangle_i.y[(i+1)%3]) - step_t'(triangle_i.y[(i+2)%3]);
-      steps_d.b[i] = step_t'(triangle_i.x[(i+2)%3]) - step_t'(triangle_i.x[(i+1)%3]);
+      steps_d.a[i] = step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
+      steps_d.b[i] = step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
     end
-    steps_d.x                = centre(bounds_i.x_first & ~below) - step_t'(triangle_i.x[0]);
-    steps_d.y                = centre(bounds_i.y_first & ~below) - step_t'(triangle_i.y[0]);
+    steps_d.x                = centre(bounds_i.x_first & ~below) - step_t'(x_i[0]);
+    steps_d.y                = centre(bounds_i.y_first & ~below) - step_t'(y_i[0]);
     steps_d.area2            = area2_i;
-    steps_d.format           = format_i;
     steps_d.bottom_left_rule = bottom_left_rule_i;
-    steps_d.z_least          = z_least;
-    steps_d.z_most           = z_most;
   end
 
   pipe_register #(
@@ -112,39 +91,23 @@ module setup_edges
     return !(left || (horizontal && owned_side));
   endfunction
 
-  // The stored code nearest to a vertex depth: one half of its unit is its first fraction bit.
-  function automatic logic [CodeBits-1:0] stored_code(logic [FormatBits-1:0] format, depth_t z);
-    logic [CodeBits-1:0] code;
-    unique case (format)
-      3'd1:    code = CodeBits'(z[VertexDepthBits-1-:16]) + CodeBits'(z[VertexDepthBits-17]);
-      3'd2:    code = CodeBits'(z[VertexDepthBits-1-:24]) + CodeBits'(z[VertexDepthBits-25]);
-      3'd4:    code = CodeBits'(z);
-      default: code = '0;
-    endcase
-    return code;
-  endfunction
-
   // Second register.
   typedef struct packed {
-    step_t [2:0]         a;
-    step_t [2:0]         b;
-    edge_t [1:0]         across;
-    edge_t [1:0]         down;
-    area_t               area2;
-    logic [2:0]          bias;
-    logic [CodeBits-1:0] min_code;
-    logic [CodeBits-1:0] max_code;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    edge_t [1:0] across;
+    edge_t [1:0] down;
+    area_t       area2;
+    logic [2:0]  bias;
   } products_t;
 
   products_t products_d, products_q;
   logic      products_valid;
 
   always_comb begin
-    products_d.a        = steps_q.a;
-    products_d.b        = steps_q.b;
-    products_d.area2    = steps_q.area2;
-    products_d.min_code = stored_code(steps_q.format, steps_q.z_least);
-    products_d.max_code = stored_code(steps_q.format, steps_q.z_most);
+    products_d.a     = steps_q.a;
+    products_d.b     = steps_q.b;
+    products_d.area2 = steps_q.area2;
     for (int unsigned i = 0; i < 2; i++) begin
       products_d.across[i] = edge_t'(steps_q.a[i+1]) * edge_t'(steps_q.x);
       products_d.down[i]   = edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
@@ -167,24 +130,20 @@ module setup_edges
 
   // Third register.
   typedef struct packed {
-    step_t [2:0]         a;
-    step_t [2:0]         b;
-    edge_t [1:0]         e;
-    area_t               area2;
-    logic [2:0]          bias;
-    logic [CodeBits-1:0] min_code;
-    logic [CodeBits-1:0] max_code;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    edge_t [1:0] e;
+    area_t       area2;
+    logic [2:0]  bias;
   } sums_t;
 
   sums_t sums_d, sums_q;
 
   always_comb begin
-    sums_d.a        = products_q.a;
-    sums_d.b        = products_q.b;
-    sums_d.area2    = products_q.area2;
-    sums_d.bias     = products_q.bias;
-    sums_d.min_code = products_q.min_code;
-    sums_d.max_code = products_q.max_code;
+    sums_d.a     = products_q.a;
+    sums_d.b     = products_q.b;
+    sums_d.area2 = products_q.area2;
+    sums_d.bias  = products_q.bias;
     for (int unsigned i = 0; i < 2; i++) begin
       sums_d.e[i] = edge_t'(products_q.across[i]) + edge_t'(products_q.down[i]);
     end
@@ -207,10 +166,8 @@ module setup_edges
   assign e_o[0]     = e0 - edge_t'({1'b0, sums_q.bias[0]});
   assign e_o[1]     = sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
   assign e_o[2]     = sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
-  assign a_o        = sums_q.a;
-  assign b_o        = sums_q.b;
-  assign bias_o     = sums_q.bias;
-  assign min_code_o = sums_q.min_code;
-  assign max_code_o = sums_q.max_code;
+  assign a_o    = sums_q.a;
+  assign b_o    = sums_q.b;
+  assign bias_o = sums_q.bias;
 
 endmodule

@@ -123,7 +123,7 @@ function(add_stream_must_fails packet field)
                 ${random} --fault duplicate --check packets)
   add_must_fail("extra ${packet} at the end" 13 "extra in cycle [0-9]+: packet [0-9]+ came a second time"
                 ${random} --fault extra --check packets)
-  add_must_fail("valid before the ${packet}" 14 "handshake in cycle [0-9]+: output: valid withdrawn before ready"
+  add_must_fail("valid before the ${packet}" 14 "handshake in cycle [0-9]+: output: (valid withdrawn before ready|payload changed while stalled)"
                 ${random} --idle 0.5 --stall 0.5 --fault early-valid --check handshake)
   add_must_fail("valid before the ${packet}, by its time" 15
                 "timing in cycle [0-9]+: (packet [0-9]+ valid before|output valid with nothing)"

@@ -15,6 +15,7 @@
 #include "common/failure.hpp"
 #include "common/ports.hpp"
 #include "early_z/triangles.hpp"
+#include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_generator.hpp"
 
@@ -22,7 +23,7 @@ namespace halfspace::tb {
 namespace {
 
 constexpr int kTileSize = 8;
-constexpr std::size_t kLatency = 7;
+constexpr std::size_t kLatency = 9;
 constexpr std::size_t kTilesOfTriangle = 4;
 
 struct Expected {
@@ -62,7 +63,7 @@ class DepthBench {
     const SetupTriangle triangle = random_triangle(widths_, format, 512, 512, random_);
     const EarlyZState state{.format = format, .sub_pixel_bits = widths_.SubPixelBits};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
-    pack(equation_packet(triangle), widths_, words);
+    pack(to_packet(triangle, format), widths_, words);
     set_port(dut_->equation_i, words);
     dut_->format_i = static_cast<std::uint8_t>(format);
     low_ = triangle.depth.min_code;

@@ -10,9 +10,12 @@
 namespace halfspace::tb {
 namespace {
 
+double random_fraction(Random& random) {
+  return static_cast<double>(random.bits() >> 11) / static_cast<double>(std::uint64_t{1} << 53);
+}
+
 double random_depth(Random& random) {
-  const auto fraction =
-      static_cast<double>(random.bits() >> 11) / static_cast<double>(std::uint64_t{1} << 53);
+  const double fraction = random_fraction(random);
   switch (random.below(8)) {
     case 0:
       return 0;
@@ -59,14 +62,36 @@ ScreenTriangle random_screen_triangle(const Widths& widths, DepthFormat format, 
   }
   const double depth = random_depth(random);
   const bool flat = random.below(4) == 0;
+  // Depth clamp lets vertices leave [0, 1], to either side.
+  const bool beyond = !flat && random.below(4) == 0;
+  const auto any_depth = [&] {
+    const double inside = random_depth(random);
+    return !beyond || random.below(3) == 0
+               ? inside
+               : std::ldexp(inside * (random.below(2) == 0 ? 1 : -1), static_cast<int>(random.below(16)));
+  };
   for (ScreenVertex& v : triangle.v) {
-    v.z = format == DepthFormat::kNone ? 0 : vertex_depth_code(format, flat ? depth : random_depth(random));
+    v.z = format == DepthFormat::kNone ? 0 : vertex_depth_code(format, flat ? depth : any_depth());
     if (flat && random.below(2) == 0) {
-      v.z = static_cast<std::uint32_t>(
-          std::clamp<std::int64_t>(v.z + random.range(-2, 2), 0, vertex_depth_code(format, 1)));
+      v.z = std::clamp<std::int64_t>(v.z + random.range(-2, 2), 0, vertex_depth_code(format, 1));
     }
   }
+  if (format != DepthFormat::kNone && random.below(3) == 0) {
+    const double sign = random.below(2) == 0 ? 1 : -1;
+    triangle.offset = vertex_depth_code(
+        format, std::ldexp(sign * random_fraction(random), -static_cast<int>(random.below(40))));
+  }
   return triangle;
+}
+
+DepthLimits random_limits(DepthFormat format, Random& random) {
+  const std::uint32_t one = largest_code(format);
+  if (random.below(4) != 0) {
+    return {.least = 0, .most = one};
+  }
+  const auto code = [&] { return static_cast<std::uint32_t>(random.below(std::uint64_t{one} + 1)); };
+  const auto [least, most] = std::minmax({code(), code()});
+  return {.least = least, .most = most};
 }
 
 template <int TileSize>
@@ -109,7 +134,8 @@ SetupTriangle random_triangle(const Widths& widths, DepthFormat format, int widt
   const SetupState state{.sub_pixel_bits = widths.SubPixelBits,
                          .bottom_left_rule = random.below(2) == 0,
                          .bounds = {0, 0, width - 1, height - 1},
-                         .depth_format = format};
+                         .depth_format = format,
+                         .limits = random_limits(format, random)};
   SetupTriangle triangle;
   while (setup(random_screen_triangle(widths, format, width, height, random), state, triangle) !=
          SetupVerdict::kDrawn) {
@@ -121,19 +147,6 @@ std::vector<QuadBurst> bursts_of(const Widths& widths, const SetupTriangle& tria
                                  Random& random) {
   return with_tile(widths.TileSize,
                    [&](auto size) { return tile_bursts<size()>(widths, triangle, most, random); });
-}
-
-DepthEquationPacket equation_packet(const SetupTriangle& triangle) {
-  const DepthEquation& depth = triangle.depth;
-  return {.a = {triangle.edge[1].a, triangle.edge[2].a},
-          .b = {triangle.edge[1].b, triangle.edge[2].b},
-          .z = depth.z,
-          .bias = depth.bias,
-          .area2 = depth.area2,
-          .reciprocal = depth.reciprocal,
-          .shift = depth.shift,
-          .min_code = depth.min_code,
-          .max_code = depth.max_code};
 }
 
 }  // namespace halfspace::tb

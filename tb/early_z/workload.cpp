@@ -199,7 +199,7 @@ class Maker {
       TriangleWords words;
       words.equation.resize(words_for(packed_bits<DepthEquationPacket>(shape_.widths)));
       words.state.resize(words_for(packed_bits<DrawStatePacket>(shape_.widths)));
-      pack(equation_packet(triangle), shape_.widths, words.equation);
+      pack(to_packet(triangle, state.format), shape_.widths, words.equation);
       pack(packet, shape_.widths, words.state);
       workload_.triangles.push_back(words);
       for (const QuadBurst& burst : bursts) {

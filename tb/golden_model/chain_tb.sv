@@ -110,6 +110,11 @@ module chain_tb;
     .data_o  (beat)
   );
 
+  // The stored code of depth 1.
+  function automatic logic [CodeBits-1:0] largest_code(logic [FormatBits-1:0] format);
+    return format == 1 ? 'hffff : format == 2 ? 'hff_ffff : format == 4 ? 'h3f80_0000 : '0;
+  endfunction
+
   // Vertices around a point of the target; a draw tests depth, or has no depth.
   function automatic triangle_link_t random_triangle();
     triangle_link_t next;
@@ -123,7 +128,7 @@ module chain_tb;
     for (int i = 0; i < 3; i++) begin
       next.triangle.x[i] = coord_t'(x - reach + int'($urandom_range(2 * reach)));
       next.triangle.y[i] = coord_t'(y - reach + int'($urandom_range(2 * reach)));
-      next.triangle.z[i] = VertexDepthBits'($urandom_range('h3f80_0000));
+      next.triangle.z[i] = vertex_depth_t'($urandom_range('h3f80_0000));
     end
     next.state.front_positive_area = FlagBits'($urandom);
     next.state.cull_back           = FlagBits'($urandom_range(3) == 0);
@@ -132,6 +137,7 @@ module chain_tb;
     next.state.y_last              = PixelBits'(Size - 1 - $urandom_range(40));
     next.state.format              = FormatBits'(1 << $urandom_range(2)) & {FormatBits{deep}};
     next.state.test                = deep;
+    next.state.most_code           = largest_code(next.state.format);
     next.state.func                = FuncBits'($urandom);
     return next;
   endfunction

@@ -156,6 +156,11 @@ module early_z_tb;
 
   int unsigned clear_code[2];
 
+  // The stored code of depth 1.
+  function automatic logic [CodeBits-1:0] largest_code(logic [FormatBits-1:0] format);
+    return format == 1 ? 'hffff : format == 2 ? 'hff_ffff : format == 4 ? 'h3f80_0000 : '0;
+  endfunction
+
   // Two triangles in three test depth on one of the surfaces; the others have none.
   function automatic triangle_link_t random_triangle();
     triangle_link_t next;
@@ -165,13 +170,14 @@ module early_z_tb;
     for (int i = 0; i < 3; i++) begin
       next.triangle.x[i] = coord_t'($urandom_range(Size << SubPixelBits));
       next.triangle.y[i] = coord_t'($urandom_range(Size << SubPixelBits));
-      next.triangle.z[i] = VertexDepthBits'($urandom_range('h3f80_0000));
+      next.triangle.z[i] = vertex_depth_t'($urandom_range('h3f80_0000));
     end
     next.state.x_last     = PixelBits'(Size - 1);
     next.state.y_last     = PixelBits'(Size - 1);
     next.state.format     = which == 0 ? '0 : FormatBits'(which == 1 ? Unorm16 : Float32);
     next.state.test       = which != 0;
     next.state.write      = FlagBits'($urandom);
+    next.state.most_code  = largest_code(next.state.format);
     next.state.func       = FuncBits'($urandom);
     next.state.clear_code = clear_code[which == 2];
     next.state.first_tile = which == 2 ? SurfaceTiles : 0;

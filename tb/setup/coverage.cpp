@@ -62,7 +62,7 @@ std::size_t verdict_index(const SetupJob& job, const SetupResult& result) {
   return job.state.empty != 0 ? 6 : 5;
 }
 
-std::size_t depth_index(const std::array<std::uint32_t, 3>& z) {
+std::size_t depth_index(const std::array<std::int64_t, 3>& z) {
   if (z[0] == z[1] && z[1] == z[2]) {
     return 0;
   }

@@ -81,7 +81,7 @@ SetupJob unpack_job(std::span<const std::uint32_t> words, const Widths& widths) 
 }
 
 SetupResult reference(const SetupJob& job, int sub_pixel_bits) {
-  ScreenTriangle triangle;
+  ScreenTriangle triangle{.v = {}, .offset = job.triangle.offset};
   for (std::size_t i = 0; i < 3; ++i) {
     triangle.v[i] = {job.triangle.x[i], job.triangle.y[i], job.triangle.z[i]};
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "common/random.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 constexpr std::int32_t kScreen = 16383;  // last pixel
 constexpr std::array<std::uint8_t, 4> kFormats = {0, 1, 2, 4};
-constexpr std::uint32_t kFloatOne = 0x3F800000;
 
 struct Point {
   std::int64_t x = 0;
@@ -52,14 +52,15 @@ DrawStatePacket open_state(std::uint8_t format) {
   DrawStatePacket state;
   state.x_last = state.y_last = kScreen;
   state.format = format;
+  state.most_code = largest_code(static_cast<DepthFormat>(format));
   return state;
 }
 
 std::uint32_t largest_depth(std::uint8_t format) {
   const auto depth_format = static_cast<DepthFormat>(format);
-  return format == 4   ? kFloatOne
-         : format == 0 ? 0x7FFFFFFF
-                       : max_unorm_code(depth_format) << vertex_depth_fraction(depth_format);
+  return format == 0
+             ? 0x7FFFFFFF
+             : static_cast<std::uint32_t>(vertex_depth_of_code(depth_format, largest_code(depth_format)));
 }
 
 /// Every order and turn of a triangle under every rule and culling.
@@ -85,7 +86,7 @@ void add_orders(std::vector<SetupJob>& jobs, const Band& band) {
         std::array<Point, 3> points;
         for (std::size_t i = 0; i < 3; ++i) {
           points[i] = band.centre(shape[order[i]].x, shape[order[i]].y);
-          job.triangle.z[i] = static_cast<std::uint32_t>(1000000 * (order[i] + 1));
+          job.triangle.z[i] = static_cast<std::int64_t>(1000000 * (order[i] + 1));
         }
         set_vertices(job, points);
         jobs.push_back(job);
@@ -340,10 +341,11 @@ class Generator {
 
   void depths(SetupJob& job) {
     const std::uint32_t most = one_in(8) ? 0x7FFFFFFF : largest_depth(job.state.format);
-    const std::uint64_t how = random_.below(6);
-    for (std::uint32_t& z : job.triangle.z) {
-      z = how == 0 ? (one_in(2) ? 0 : most)
-                   : static_cast<std::uint32_t>(random_.below(std::uint64_t{most} + 1));
+    const std::uint64_t how = random_.below(8);
+    for (std::int64_t& z : job.triangle.z) {
+      z = how == 0                ? (one_in(2) ? 0 : most)
+          : how > 5 && !one_in(3) ? depth_beyond(job.state.format)
+                                  : static_cast<std::int64_t>(random_.below(std::uint64_t{most} + 1));
     }
     if (how == 1) {
       job.triangle.z[1] = job.triangle.z[2] = job.triangle.z[0];
@@ -352,6 +354,33 @@ class Generator {
     } else if (how == 3) {
       job.triangle.z[1] = job.triangle.z[0] ^ 1;
     }
+    job.triangle.offset = !one_in(3) ? 0 : one_in(4) ? depth_beyond(job.state.format) : offset(job);
+    if (one_in(4)) {
+      const std::uint32_t one = largest_code(static_cast<DepthFormat>(job.state.format));
+      const auto code = [&] { return static_cast<std::uint32_t>(random_.below(std::uint64_t{one} + 1)); };
+      std::tie(job.state.least_code, job.state.most_code) = std::minmax({code(), code()});
+    }
+  }
+
+  /// Any that a vertex depth can hold.
+  std::int64_t depth_beyond(std::uint8_t format) {
+    if (format == 4) {
+      constexpr std::int64_t kMost = 0x47000000;  // 2^kVertexDepthRange
+      return random_.range(0, kMost) | (one_in(2) ? std::int64_t{1} << 31 : 0);
+    }
+    const std::int64_t limit = std::int64_t{1} << random_.range(0, kVertexDepthBits + kVertexDepthRange);
+    return random_.range(-limit, limit);
+  }
+
+  /// One about as large as the depths, or as their last place.
+  std::int64_t offset(const SetupJob& job) {
+    if (job.state.format == 4) {
+      const std::int64_t magnitude = job.triangle.z[0] & 0x7FFFFFFF;
+      return std::max<std::int64_t>(magnitude - (one_in(2) ? 23 << 23 : 0), 0) |
+             (one_in(2) ? std::int64_t{1} << 31 : 0);
+    }
+    const std::int64_t limit = std::int64_t{1} << random_.range(0, kVertexDepthBits);
+    return random_.range(-limit, limit);
   }
 
   Widths widths_;

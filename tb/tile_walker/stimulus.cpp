@@ -121,6 +121,7 @@ class TriangleStimulus : public Stimulus {
   TriangleStimulus(const WalkerParameters& parameters, std::uint64_t seed)
       : parameters_(parameters),
         random_(seed),
+        payload_(seed),
         words_(parameters.widths()),
         job_words_(words_for(packed_bits<TileJob>(parameters.widths()))) {}
 
@@ -147,12 +148,13 @@ class TriangleStimulus : public Stimulus {
 
   WalkerParameters parameters_;
   Random random_;
+  Random payload_;          ///< of what only passes through: triangles do not depend on its width
   std::uint64_t jobs_ = 0;  ///< that the triangles taken so far have given
 
  private:
   void randomise(std::span<std::uint32_t> words, int bits) {
     for (std::uint32_t& word : words) {
-      word = static_cast<std::uint32_t>(random_.bits());
+      word = static_cast<std::uint32_t>(payload_.bits());
     }
     if (bits % 32 != 0) {
       words.back() &= (1u << bits % 32) - 1;

@@ -187,14 +187,15 @@ TEST_CASE("gradients of a plane are the quotients cut towards zero") {
       return random.between(-limit, limit);
     };
     const std::int64_t area2 = random.between(1, std::int64_t{1} << random.between(0, 48));
-    const std::array<ScreenVertex, 3> v{
-        ScreenVertex{}, ScreenVertex{.z = static_cast<std::uint32_t>(random.between(0, INT32_MAX))},
-        ScreenVertex{.z = static_cast<std::uint32_t>(random.between(0, INT32_MAX))}};
+    const std::array<ScreenVertex, 3> v{ScreenVertex{}, ScreenVertex{.z = random.between(0, INT32_MAX)},
+                                        ScreenVertex{.z = random.between(0, INT32_MAX)}};
     std::array<Edge, 3> edge{};
     for (Edge& e : edge) {
       e = {.a = static_cast<std::int32_t>(any(24)), .b = static_cast<std::int32_t>(any(24))};
     }
-    const PlaneEquation plane = plane_equation(v, edge, area2, DepthFormat::kUnorm24);
+    DepthEquation equation;
+    make_depth_equation(v, 0, edge, area2, DepthFormat::kUnorm24, {}, DepthInterpolator::kPlane, equation);
+    const PlaneEquation& plane = equation.plane;
     const auto exact = [&](std::int64_t step1, std::int64_t step2) {
       const mpz_class numerator = mpz_class(v[1].z) * step1 + mpz_class(v[2].z) * step2;
       mpz_class quotient;

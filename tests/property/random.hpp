@@ -14,6 +14,13 @@ inline std::uint64_t seed() {
   return text != nullptr ? std::stoull(text) : 20240229;
 }
 
+/// How many samples a property looks at: HALFSPACE_SAMPLES from the environment, or what the gate has time
+/// for.
+inline std::uint64_t samples(std::uint64_t in_gate) {
+  const char* text = std::getenv("HALFSPACE_SAMPLES");
+  return text != nullptr ? std::stoull(text) : in_gate;
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed_value) : engine_(seed_value) {}

@@ -85,8 +85,18 @@ TEST_CASE("timing gates: latency of each unit", "[timing]") {
   CHECK(rig.times.e.at(0) == 23 + 2);
   CHECK(rig.times.g.at(0) == 25 + 3);  // two pipeline registers and the output register
   CHECK(rig.times.f.at(0) == 28 + 2);
-  CHECK(rig.times.b.at(0) == 30 + 12);
-  CHECK(rig.times.y.at(0) == 42 + 2);
+  CHECK(rig.times.b.at(0) == 30 + 14);
+  CHECK(rig.times.y.at(0) == 44 + 2);
+}
+
+TEST_CASE("timing gates: pipeline registers of the interpolator", "[timing]") {
+  for (const int registers : {9, 10, 32}) {
+    Config config = deep();
+    config.depth.latency = registers;
+    Rig rig(config);
+    rig.triangle(1, {4});
+    CHECK(rig.times.b.at(0) == rig.times.f.at(0) + static_cast<std::uint64_t>(registers) + 5);
+  }
 }
 
 TEST_CASE("timing gates: pipeline registers of the edge evaluator", "[timing]") {
@@ -196,10 +206,10 @@ TEST_CASE("timing gates: the pending store takes a burst when one has been teste
   Rig rig(config);
   rig.triangle(1, {16, 4, 4});
   CHECK(rig.times.f.at(0) == 30);
-  CHECK(rig.times.b.at(0) == 42);  // 16 quads, one a cycle: until 57
+  CHECK(rig.times.b.at(0) == 44);  // 16 quads, one a cycle: until 59
   CHECK(rig.times.f.at(1) == 34);
-  CHECK(rig.times.f.at(2) == 58);
-  CHECK(rig.times.b.at(1) == 58);
+  CHECK(rig.times.f.at(2) == 60);
+  CHECK(rig.times.b.at(1) == 60);
 }
 
 TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
@@ -207,9 +217,9 @@ TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
   config.early_z.fifo = 2;
   Rig rig(config);
   rig.triangle(1, {4, 4, 4});
-  CHECK(rig.times.b.at(1) == 43);
-  CHECK(rig.times.y.at(0) == 44);
-  CHECK(rig.times.b.at(2) == 45);
+  CHECK(rig.times.b.at(1) == 45);
+  CHECK(rig.times.y.at(0) == 46);
+  CHECK(rig.times.b.at(2) == 47);
 }
 
 TEST_CASE("timing gates: a fetched line arrives after latency and transfer", "[timing]") {
@@ -229,10 +239,10 @@ TEST_CASE("timing gates: lines made from the clear value are resolved one a cycl
   Rig rig(deep());
   rig.miss(4, {{.line = 1, .bytes = 256}});
   CHECK(rig.times.f.at(0) == 30);
-  CHECK(rig.times.b.at(0) == 42);
+  CHECK(rig.times.b.at(0) == 44);
   rig.miss(4, {{.line = 2, .bytes = 256}, {.line = 3, .bytes = 256}, {.line = 4, .bytes = 256}});
   CHECK(rig.times.f.at(1) == 31);  // while the line before is resolved; its own in 32, 33, 34
-  CHECK(rig.times.b.at(1) == 43);
+  CHECK(rig.times.b.at(1) == 45);
   rig.triangle(1, {4});
   CHECK(rig.times.f.at(2) == 34);
 }
@@ -305,10 +315,10 @@ TEST_CASE("timing gates: requests of one burst follow each other", "[timing]") {
 TEST_CASE("timing gates: a clear waits until the machine is empty", "[timing]") {
   Rig rig(deep());
   rig.triangle(1, {4});
-  CHECK(rig.times.y.at(0) == 44);
+  CHECK(rig.times.y.at(0) == 46);
   rig.fast_clear(100);
   rig.dropped();
-  CHECK(rig.times.decide.at(1) == 45 + 100 + 4);
+  CHECK(rig.times.decide.at(1) == 47 + 100 + 4);
 }
 
 TEST_CASE("timing gates: a clear waits for writes to memory", "[timing]") {
@@ -330,14 +340,14 @@ TEST_CASE("timing gates: the flush looks at a line a cycle and waits for the wri
   config.memory.write_bytes = 64;
   Rig clean(config);
   clean.triangle(1, {4});
-  CHECK(clean.flush({}) == 45 + 16);
+  CHECK(clean.flush({}) == 47 + 16);
   Rig dirty(config);
   dirty.triangle(1, {4});
-  // line 2 is seen in 47 and written in 48 to 51; line 3 finds the slot in 52 and is written in 53 to 56
-  CHECK(dirty.flush({{.slot = 2, .bytes = 256}, {.slot = 3, .bytes = 256}}) == 52 + 1 + 12);
+  // line 2 is seen in 49 and written in 50 to 53; line 3 finds the slot in 54 and is written in 55 to 58
+  CHECK(dirty.flush({{.slot = 2, .bytes = 256}, {.slot = 3, .bytes = 256}}) == 54 + 1 + 12);
   Rig last(config);
   last.triangle(1, {4});
-  CHECK(last.flush({{.slot = 15, .bytes = 256}}) == 45 + 16 + 4);
+  CHECK(last.flush({{.slot = 15, .bytes = 256}}) == 47 + 16 + 4);
 }
 
 TEST_CASE("timing rates: setup takes a triangle a cycle, a drawn one each interval", "[timing]") {
@@ -431,7 +441,7 @@ TEST_CASE("timing rates: few slots at the sink, a short pending store", "[timing
   pending.early_z.pending = 4;
   Rig short_store(pending);
   short_store.triangle(1, std::vector<int>(500, 4));
-  CHECK(span(short_store.times.y, 40) == 130);  // four in 12 + 1
+  CHECK(span(short_store.times.y, 40) == 150);  // four in 14 + 1
 }
 
 TEST_CASE("timing rates: memory's bandwidth, latency and write channel", "[timing]") {

@@ -127,7 +127,8 @@ class Reference {
                      .cull_back = draw.cull_back != 0,
                      .bottom_left_rule = draw.bottom_left_rule != 0,
                      .bounds = {},
-                     .depth_format = static_cast<DepthFormat>(draw.format)};
+                     .depth_format = static_cast<DepthFormat>(draw.format),
+                     .limits = {.least = draw.least_code, .most = draw.most_code}};
     if (draw.empty == 0) {
       state.bounds = {draw.x_first, draw.y_first, draw.x_last, draw.y_last};
     }
@@ -222,6 +223,7 @@ inline DrawStatePacket draw_state(const Machine& machine, DepthFormat format) {
   draw.x_last = kWidth - 1;
   draw.y_last = kHeight - 1;
   draw.format = static_cast<std::uint8_t>(format);
+  draw.most_code = largest_code(format);
   draw.test = format == DepthFormat::kNone ? 0 : 1;
   draw.write = 1;
   draw.func = static_cast<std::uint8_t>(DepthFunc::kLequal);
@@ -230,20 +232,16 @@ inline DrawStatePacket draw_state(const Machine& machine, DepthFormat format) {
   return draw;
 }
 
-inline std::uint32_t one(DepthFormat format) {
-  return format == DepthFormat::kFloat32 ? 0x3F800000u : max_unorm_code(format);
-}
-
 inline std::uint32_t largest_vertex_depth(DepthFormat format) {
-  return format == DepthFormat::kFloat32 ? 0x3F800000u
-         : format == DepthFormat::kNone  ? 0x7FFFFFFFu
-                                         : max_unorm_code(format) << vertex_depth_fraction(format);
+  return format == DepthFormat::kNone
+             ? 0x7FFFFFFFu
+             : static_cast<std::uint32_t>(vertex_depth_of_code(format, largest_code(format)));
 }
 
 inline void define_surface(const Model& model, DepthFormat format) {
   if (format != DepthFormat::kNone) {
     REQUIRE(halfspace_define_surface(model.get(), kFirstTile, static_cast<int>(format), kWidth, kHeight,
-                                     one(format)) == HALFSPACE_OK);
+                                     largest_code(format)) == HALFSPACE_OK);
   }
 }
 

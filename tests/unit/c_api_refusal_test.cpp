@@ -14,7 +14,7 @@ namespace {
 
 /// A model of which every packet that is refused must leave nothing behind, and packets of one good triangle.
 struct Refusals {
-  Refusals() : reference(machine, format, kWidth, kHeight, one(format)) {
+  Refusals() : reference(machine, format, kWidth, kHeight, largest_code(format)) {
     define_surface(model, format);
     reference.triangle(
         {{ScreenVertex{0, 0, 0}, ScreenVertex{20000, 800, 5}, ScreenVertex{300, 21000, 1 << 30}}, 0},
@@ -191,13 +191,20 @@ TEST_CASE_METHOD(Refusals, "c_api: triangles outside the contract of setup are r
                      fmt::format("state.format is {}; legal: 0 (none), 1", format_number));
   }
   refused_triangle([](auto&, auto& d) { d.format = 0; }, "state.test is 1; legal: 0");
-  refused_triangle([](auto&, auto& d) { d.format = 1; },
+  refused_triangle(
+      [](auto&, auto& d) { d.most_code = 1u << 24; },
+      "state.least_code and most_code are 0x0 and 0x1000000; legal: 0 to 0xffffff, in this order");
+  refused_triangle([](auto&, auto& d) { d.least_code = d.most_code--; },
+                   "state.least_code and most_code are 0xffffff and 0xfffffe; legal: 0 to");
+  refused_triangle([](auto&, auto& d) { d.format = 1, d.most_code = 0xFFFF; },
                    "state.format is 1; legal: 2, the format of the surface at tile 77");
   refused_triangle([](auto&, auto& d) { d.x_first = kWidth; },
                    "state.x_last is 199; legal: at least state.x_first (200)");
   refused_triangle([](auto&, auto& d) { d.y_first = kHeight; }, "state.y_last is 119");
-  refused_triangle([](auto& p, auto&) { p.z[1] = 0x7FFFFFFF; },
-                   "triangle.z[1] is 0x7fffffff; legal: at most 0x7fffff80");
+  refused_triangle([](auto& p, auto&) { p.z[1] = (std::int64_t{1} << 46) + 1; },
+                   "triangle.z[1] is 70368744177665; legal: -70368744177664 to 70368744177664");
+  refused_triangle([](auto& p, auto&) { p.offset = -(std::int64_t{1} << 47); },
+                   "triangle.offset is -140737488355328; legal: -70368744177664 to");
   refused_triangle([](auto&, auto& d) { d.first_tile = 3; },
                    "state.first_tile is 3, where no depth surface begins; legal: 77");
   refused_triangle([](auto&, auto& d) { d.tiles_x = 3; }, "state.tiles_x is 3; legal: 24");
@@ -226,7 +233,13 @@ TEST_CASE_METHOD(Refusals, "c_api: so are triangles that setup does not make") {
   refused_set_up(equation_lsb, equation_fields, "min_code", 7, "equation.min_code is 7; legal: 0");
   refused_set_up(equation_lsb, equation_fields, "max_code", 7, "equation.max_code is 7; legal:");
   refused_set_up(equation_lsb, equation_fields, "area2", 0, "equation.area2 is 0; legal: 1 or more");
-  refused_set_up(equation_lsb, equation_fields, "z[0]", 0x7FFFFFFF, "equation.z[0] is 0x7fffffff");
+  refused_set_up(equation_lsb, equation_fields, "beyond", 1, "equation.beyond is 1; legal: 0");
+  refused_set_up(equation_lsb, equation_fields, "exponent", 1, "equation.exponent is 1; legal: 0");
+  refused_set_up(equation_lsb, equation_fields, "offset", 1 << 20, "equation.min_code is");
+  refused_set_up(equation_lsb, equation_fields, "offset", std::uint64_t{1} << 47,
+                 "equation.offset, as a depth, is");
+  refused_set_up(equation_lsb, equation_fields, "z[0]", (std::uint64_t{1} << 47) - 1,
+                 "equation.z[0] is 140737488355327; legal: -");
 }
 
 TEST_CASE_METHOD(Refusals, "c_api: so are slots and tile jobs that tile_walker does not make") {
@@ -317,7 +330,7 @@ TEST_CASE("c_api: nor does a packet with some bits flipped, where all units work
   Random random(4);
   const Machine& machine = kMachines[0];
   const DepthFormat format = GENERATE(DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32);
-  Reference<8> reference(machine, format, kWidth, kHeight, one(format));
+  Reference<8> reference(machine, format, kWidth, kHeight, largest_code(format));
   TriangleSource source(7, kWidth, machine.widths.SubPixelBits);
   for (int i = 0; i < 10; ++i) {
     reference.triangle(source.next(largest_vertex_depth(format)), draw_state(machine, format));

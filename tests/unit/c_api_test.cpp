@@ -59,7 +59,7 @@ void check_from(const Machine& machine, const Reference<TileSize>& reference, De
 
 template <int TileSize>
 void check_random(const Machine& machine, DepthFormat format) {
-  Reference<TileSize> reference(machine, format, kWidth, kHeight, one(format));
+  Reference<TileSize> reference(machine, format, kWidth, kHeight, largest_code(format));
   TriangleSource source(5, kWidth, machine.widths.SubPixelBits);
   DrawStatePacket draw = draw_state(machine, format);
   for (int i = 0; i < 30; ++i) {
@@ -89,7 +89,7 @@ void check_random(const Machine& machine, DepthFormat format) {
 
 template <int TileSize>
 void check_late_start(const Machine& machine, DepthFormat format) {
-  Reference<TileSize> reference(machine, format, kWidth, kHeight, one(format));
+  Reference<TileSize> reference(machine, format, kWidth, kHeight, largest_code(format));
   TriangleSource source(6, kWidth, machine.widths.SubPixelBits);
   const DrawStatePacket draw = draw_state(machine, format);
   for (int i = 0; i < 20; ++i) {

@@ -139,7 +139,7 @@ TEST_CASE("front_end: keeps every vertex inside the guard band, whatever comes")
       for (const ScreenVertex& v : t.v) {
         REQUIRE(std::abs(v.x) <= limit);
         REQUIRE(std::abs(v.y) <= limit);
-        REQUIRE(v.z <= 16777215u << 7);
+        REQUIRE(std::abs(v.z) <= std::int64_t{1} << (kVertexDepthBits + kVertexDepthRange));
       }
     }
     REQUIRE(p.counters.emitted == p.triangles.size());
@@ -152,36 +152,73 @@ TEST_CASE("front_end: polygon offset is factor * slope + units * r, within its c
   Command state;
   state.offset_factor = 2;
   state.offset_units = 8;
-  const auto first_depth = [&](DepthFormat format) {
-    const ScreenVertex v = process(plane, bits({Flag::kPolygonOffset}), format, state).triangles.at(0).v[0];
+  const auto offset = [&](DepthFormat format) {
+    const ScreenTriangle t = process(plane, bits({Flag::kPolygonOffset}), format, state).triangles.at(0);
+    CHECK(t.v[0].z == vertex_depth_code(format, 0.125));  // it is added to fragments
     return format == DepthFormat::kFloat32
-               ? std::bit_cast<float>(v.z)
-               : v.z / std::ldexp(max_unorm_code(format), vertex_depth_fraction(format));
+               ? std::bit_cast<float>(static_cast<std::uint32_t>(t.offset))
+               : t.offset / std::ldexp(max_unorm_code(format), vertex_depth_fraction(format));
   };
-  CHECK(first_depth(DepthFormat::kUnorm24) == Approx(0.125 + 2.0 / 64 + 8.0 / 16777215).epsilon(1e-8));
-  CHECK(first_depth(DepthFormat::kUnorm16) == Approx(0.125 + 2.0 / 64 + 8.0 / 65535).epsilon(1e-8));
+  CHECK(offset(DepthFormat::kUnorm24) == Approx(2.0 / 64 + 8.0 / 16777215).epsilon(1e-8));
+  CHECK(offset(DepthFormat::kUnorm16) == Approx(2.0 / 64 + 8.0 / 65535).epsilon(1e-8));
   // float32: r = 2^(e - 23) of the largest depth, 0.625, whose e is -1
-  CHECK(first_depth(DepthFormat::kFloat32) == static_cast<float>(0.125 + 2.0 / 64 + 8 * std::ldexp(1, -24)));
+  CHECK(offset(DepthFormat::kFloat32) == static_cast<float>(2.0 / 64 + 8 * std::ldexp(1, -24)));
   state.offset_clamp = 0.01f;
-  CHECK(first_depth(DepthFormat::kUnorm24) == Approx(0.125 + 0.01).epsilon(1e-6));
+  CHECK(offset(DepthFormat::kUnorm24) == Approx(0.01).epsilon(1e-6));
   state.offset_clamp = -0.01f;
   state.offset_factor = -2;
-  CHECK(first_depth(DepthFormat::kUnorm24) == Approx(0.125 - 0.01).epsilon(1e-6));
+  CHECK(offset(DepthFormat::kUnorm24) == Approx(-0.01).epsilon(1e-6));
 }
 
-TEST_CASE("front_end: depth clamp bends the triangle where it leaves the range") {
-  // z / w runs from -1 over 0.5 to 2: below, inside and above the range in equal parts
-  const Processed p = process({{{-1, -1, -1, 1}, {1, -1, 2, 1}, {-1, 1, -1, 1}}}, bits({Flag::kDepthClamp}));
-  CHECK(p.counters.depth_split == 1);
+TEST_CASE("front_end: the slope of polygon offset is that of the snapped triangle") {
+  // 20 pixels long and a tenth of a pixel wide; depth rises across it. Snapping makes it 26/256 of a pixel.
+  const float wide = 0.1f / 32;
+  const std::array<glm::vec4, 3> needle{{{0, 0, 0.25f, 1}, {0, 20.0f / 32, 0.25f, 1}, {wide, 0, 0.375f, 1}}};
+  Command state;
+  state.offset_factor = 1;
+  state.offset_clamp = 0;
+  const ScreenTriangle t =
+      process(needle, bits({Flag::kPolygonOffset}), DepthFormat::kUnorm24, state).triangles.at(0);
+  REQUIRE(t.v[2].x - t.v[0].x == 26);
+  CHECK(t.offset / std::ldexp(16777215.0, 7) == Approx(0.125 * 256 / 26).epsilon(1e-8));
+}
+
+TEST_CASE("front_end: with depth clamp vertices keep depths beyond the range, and their place") {
+  const Processed p =
+      process({{{-1, -1, -1, 1}, {1, -1, 2, 1}, {-1, 1, -32767, 1}}}, bits({Flag::kDepthClamp}));
+  REQUIRE(p.triangles.size() == 1);
   CHECK(p.counters.clipped == 0);
-  std::int64_t area2 = 0;
-  int flat = 0;
+  CHECK(p.counters.far_depth == 0);
+  const auto& v = p.triangles[0].v;
+  CHECK(unorm24(v[0]) == -1);
+  CHECK(unorm24(v[1]) == 2);
+  CHECK(unorm24(v[2]) == -32767);
+}
+
+// One that is too far for a vertex depth: the plane's value at each sample, in one piece or another.
+TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") {
+  const DepthFormat format = GENERATE(DepthFormat::kUnorm24, DepthFormat::kFloat32);
+  const float far = GENERATE(40000.0f, -3e6f, 6e7f);
+  const Processed p = process({{{-1, -1, 0.5f, 1}, {1, -1, far, 1}, {-1, 1, -2 * far, 1}}},
+                              bits({Flag::kDepthClamp}), format);
+  CHECK(p.counters.far_depth == 1);
+  CHECK(p.counters.emitted == p.triangles.size());
+  int seen = 0;
   for (const ScreenTriangle& t : p.triangles) {
-    const auto& v = t.v;
-    area2 +=
-        std::int64_t{v[1].x - v[0].x} * (v[2].y - v[0].y) - std::int64_t{v[2].x - v[0].x} * (v[1].y - v[0].y);
-    flat += v[0].z == v[1].z && v[1].z == v[2].z;
+    REQUIRE((t.v[0].x == 0 && t.v[0].y == 0 && t.v[1].x == 64 * 256 && t.v[2].y == 64 * 256));
+    REQUIRE((t.v[0].z == t.v[1].z && t.v[0].z == t.v[2].z && t.offset == 0));
+    for (int y = t.within.y_first; y <= t.within.y_last; ++y) {
+      for (int x = t.within.x_first; x <= t.within.x_last; ++x) {
+        ++seen;
+        const double u = (x + 0.5) / 64;
+        const double w = (y + 0.5) / 64;
+        const double z = std::clamp(0.5 * (1 - u - w) + far * u - 2.0 * far * w, 0.0, 1.0);
+        const double got = format == DepthFormat::kFloat32
+                               ? std::bit_cast<float>(static_cast<std::uint32_t>(t.v[0].z))
+                               : unorm24(t.v[0]);
+        REQUIRE(got == Approx(z).margin(1e-7));
+      }
+    }
   }
-  CHECK(area2 == std::int64_t{64 * 256} * (64 * 256));  // the pieces make up the whole
-  CHECK(flat == 3);                                     // two of the near part, one of the far part
+  CHECK(seen == 64 * 64);  // every pixel of the box is in one piece
 }

@@ -8,7 +8,6 @@ namespace halfspace::c_api {
 namespace {
 
 constexpr int kMostPixels = 16384;  // 2^PixelBits
-constexpr std::uint32_t kFloatOne = 0x3F800000;
 
 std::uint64_t tile_count(const DepthSurface& surface) {
   return static_cast<std::uint64_t>(surface.codes.tiles_x()) *
@@ -16,7 +15,7 @@ std::uint64_t tile_count(const DepthSurface& surface) {
 }
 
 void check_code(DepthFormat format, std::uint32_t code) {
-  const std::uint32_t largest = format == DepthFormat::kFloat32 ? kFloatOne : max_unorm_code(format);
+  const std::uint32_t largest = largest_code(format);
   if (code > largest) {
     throw InputError(
         fmt::format("depth code is {:#x}; legal: at most {:#x}, which is depth 1", code, largest));
@@ -24,18 +23,6 @@ void check_code(DepthFormat format, std::uint32_t code) {
 }
 
 }  // namespace
-
-std::uint32_t largest_vertex_depth(DepthFormat format) {
-  switch (format) {
-    case DepthFormat::kUnorm16:
-    case DepthFormat::kUnorm24:
-      return max_unorm_code(format) << vertex_depth_fraction(format);
-    case DepthFormat::kFloat32:
-      return kFloatOne;
-    default:
-      return ~0u;
-  }
-}
 
 void DepthSurfaces::define(std::uint32_t first_tile, int format, int width, int height, std::uint32_t code,
                            int tile_size) {

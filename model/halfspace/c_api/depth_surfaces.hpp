@@ -17,9 +17,6 @@ struct DepthSurface {
   TiledImage<std::uint32_t> codes;
 };
 
-/// The largest vertex depth that is legal: depth 1, or anything where there is no surface.
-std::uint32_t largest_vertex_depth(DepthFormat format);
-
 /// By first tile. All functions throw InputError for what is not legal.
 class DepthSurfaces {
  public:

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "halfspace/c_api/depth_surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/units/float_parts.hpp"
 
 namespace halfspace::c_api {
 namespace {
@@ -16,6 +19,12 @@ void check_order(const char* first_name, int first, const char* last_name, int l
   if (last < first) {
     throw InputError(fmt::format("{} is {}; legal: at least {} ({})", last_name, last, first_name, first));
   }
+}
+
+/// The float32 whose word it is.
+std::int64_t float_of_signed_word(std::int64_t word, int exponent) {
+  const Int128 magnitude = word < 0 ? -Int128{word} : Int128{word};
+  return float_of_word(magnitude, exponent) | (word < 0 ? 1u << 31 : 0);
 }
 
 void demand_equal(const char* field, std::int64_t value, std::int64_t legal, const char* why) {
@@ -35,19 +44,40 @@ void check_draw(const DrawStatePacket& draw) {
   if (draw.test != 0 && draw.format == 0) {
     throw InputError("state.test is 1; legal: 0, since state.format is 0 (none)");
   }
+  const std::uint32_t largest = largest_code(static_cast<DepthFormat>(draw.format));
+  if (draw.most_code > largest || draw.least_code > draw.most_code) {
+    throw InputError(
+        fmt::format("state.least_code and most_code are {:#x} and {:#x}; legal: 0 to {:#x}, in this order",
+                    draw.least_code, draw.most_code, largest));
+  }
   if (draw.empty == 0) {
     check_order("state.x_first", draw.x_first, "state.x_last", draw.x_last);
     check_order("state.y_first", draw.y_first, "state.y_last", draw.y_last);
   }
 }
 
-void check_vertex_depths(const std::array<std::uint32_t, 3>& z, std::uint8_t format, const char* field) {
-  const std::uint32_t largest = largest_vertex_depth(static_cast<DepthFormat>(format));
+void check_vertex_depths(const std::array<std::int64_t, 3>& z, std::uint8_t format, const char* field) {
   for (std::size_t i = 0; i < 3; ++i) {
-    if (z[i] > largest) {
+    check_vertex_depth(z[i], format, fmt::format("{}[{}]", field, i));
+  }
+}
+
+void check_vertex_depth(std::int64_t z, std::uint8_t format, const std::string& field) {
+  if (format == 0) {
+    return;
+  }
+  constexpr int kRange = 1 << kVertexDepthRange;
+  if (static_cast<DepthFormat>(format) == DepthFormat::kFloat32) {
+    const auto bits = static_cast<std::uint32_t>(z);
+    if (z != bits || !(std::abs(std::bit_cast<float>(bits)) <= kRange)) {
       throw InputError(
-          fmt::format("{}[{}] is {:#x}; legal: at most {:#x}, which is depth 1", field, i, z[i], largest));
+          fmt::format("{} is {:#x}; legal: the bits of a float32 in [-{}, {}]", field, z, kRange, kRange));
     }
+    return;
+  }
+  constexpr std::int64_t kMost = std::int64_t{kRange} << kVertexDepthBits;
+  if (z < -kMost || z > kMost) {
+    throw InputError(fmt::format("{} is {}; legal: {} to {}", field, z, -kMost, kMost));
   }
 }
 
@@ -81,6 +111,7 @@ void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& 
     return;  // early_z does not look at it
   }
   check_vertex_depths(equation.z, draw.format, "equation.z");
+  const auto format = static_cast<DepthFormat>(draw.format);
   if (equation.area2 < 1) {
     throw InputError(fmt::format("equation.area2 is {}; legal: 1 or more", equation.area2));
   }
@@ -89,14 +120,22 @@ void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& 
   triangle.edge[1] = {.a = equation.a[0], .b = equation.b[0]};
   triangle.edge[2] = {.a = equation.a[1], .b = equation.b[1]};
   triangle.depth.bias = equation.bias;
-  const auto format = static_cast<DepthFormat>(draw.format);
-  make_depth_equation({ScreenVertex{0, 0, z[0]}, ScreenVertex{0, 0, z[1]}, ScreenVertex{0, 0, z[2]}},
-                      triangle.edge, equation.area2, format, DepthInterpolator::kBarycentric, triangle.depth);
+  const std::int64_t offset = format == DepthFormat::kFloat32
+                                  ? float_of_signed_word(equation.offset, equation.exponent)
+                                  : equation.offset;
+  check_vertex_depth(offset, draw.format, "equation.offset, as a depth,");
+  make_depth_equation({ScreenVertex{0, 0, z[0]}, ScreenVertex{0, 0, z[1]}, ScreenVertex{0, 0, z[2]}}, offset,
+                      triangle.edge, equation.area2, format,
+                      {.least = draw.least_code, .most = draw.most_code}, DepthInterpolator::kBarycentric,
+                      triangle.depth);
   const DepthEquationPacket legal = to_packet(triangle, format);
   demand_equal("equation.reciprocal", equation.reciprocal, legal.reciprocal, "which follows from area2");
   demand_equal("equation.shift", equation.shift, legal.shift, "which follows from area2");
-  demand_equal("equation.min_code", equation.min_code, legal.min_code, "which follows from z");
-  demand_equal("equation.max_code", equation.max_code, legal.max_code, "which follows from z");
+  demand_equal("equation.beyond", equation.beyond, legal.beyond, "which follows from z");
+  demand_equal("equation.exponent", equation.exponent, legal.exponent, "which follows from z and offset");
+  demand_equal("equation.offset", equation.offset, legal.offset, "which follows from exponent");
+  demand_equal("equation.min_code", equation.min_code, legal.min_code, "which follows from z and offset");
+  demand_equal("equation.max_code", equation.max_code, legal.max_code, "which follows from z and offset");
 }
 
 void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle& triangle) {

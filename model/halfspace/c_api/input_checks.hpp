@@ -14,7 +14,8 @@ namespace halfspace::c_api {
 void check_draw(const DrawStatePacket& draw);
 
 /// For setup: depths between 0 and 1.
-void check_vertex_depths(const std::array<std::uint32_t, 3>& z, std::uint8_t format, const char* field);
+void check_vertex_depths(const std::array<std::int64_t, 3>& z, std::uint8_t format, const char* field);
+void check_vertex_depth(std::int64_t z, std::uint8_t format, const std::string& field);
 
 /// For tile_walker: bounds that hold a pixel, and E within its width at all samples of the squares that the
 /// walk looks at.

@@ -34,6 +34,9 @@ SetupTriangle depth_part(const DepthEquationPacket& equation) {
   triangle.depth.area2 = equation.area2;
   triangle.depth.reciprocal = equation.reciprocal;
   triangle.depth.shift = equation.shift;
+  triangle.depth.beyond = equation.beyond != 0;
+  triangle.depth.exponent = equation.exponent;
+  triangle.depth.offset = equation.offset;
   triangle.depth.min_code = equation.min_code;
   triangle.depth.max_code = equation.max_code;
   return triangle;
@@ -105,10 +108,11 @@ class Chain final : public UnitChain {
   void triangle(const ScreenTrianglePacket& packet, const DrawStatePacket& draw) {
     check_draw(draw);
     check_vertex_depths(packet.z, draw.format, "triangle.z");
+    check_vertex_depth(packet.offset, draw.format, "triangle.offset");
     if (draw.empty == 0) {
       check_target(draw, draw.x_last, draw.y_last);
     }
-    ScreenTriangle in;
+    ScreenTriangle in{.v = {}, .offset = packet.offset};
     for (std::size_t i = 0; i < 3; ++i) {
       in.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
     }

@@ -81,6 +81,8 @@
     KEY(depth., interpolator, DepthInterpolator, DepthInterpolator::kBarycentric,                            \
         one_of("plane", "barycentric"), "", function,                                                        \
         "plane = additions alone for a sample, barycentric = products; both within one unit of the last place")                \
+    MODULE(depth., latency, int, 9, range(9, 32), "cycles", time,                                            \
+        "pipeline registers of the interpolator", InterpolatorLatency)                                       \
   END(depth)                                                                                                 \
   BEGIN(z_cache)                                                                                             \
     MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \

@@ -52,20 +52,25 @@ WalkerConfig walker_config(const Config& config) {
           .trivial_accept = config.tile_walker.trivial_accept};
 }
 
+DepthLimits depth_limits(const Command& draw, DepthFormat format) {
+  if (format == DepthFormat::kNone || !draw.has(Flag::kDepthClamp)) {
+    return {.least = 0, .most = largest_code(format)};
+  }
+  const auto [least, most] = std::minmax(draw.depth_range.x, draw.depth_range.y);
+  return {.least = code_of_depth(format, least), .most = code_of_depth(format, most)};
+}
+
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
   const bool bottom_left_rule = draw.has(Flag::kBottomLeftRule);
-  const PixelRect drawable = drawable_rect(draw.scissor, target);
-  const PixelRect viewport = viewport_rect(draw.viewport, bottom_left_rule);
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
           .bottom_left_rule = bottom_left_rule,
-          .bounds = {.x_first = std::max(drawable.x_first, viewport.x_first),
-                     .y_first = std::max(drawable.y_first, viewport.y_first),
-                     .x_last = std::min(drawable.x_last, viewport.x_last),
-                     .y_last = std::min(drawable.y_last, viewport.y_last)},
+          .bounds =
+              intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, bottom_left_rule)),
           .depth_format = format,
+          .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator};
 }
 
@@ -89,6 +94,8 @@ DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& ea
                          .bottom_left_rule = flag(setup.bottom_left_rule),
                          .empty = flag(setup.bounds.empty()),
                          .format = static_cast<std::uint8_t>(setup.depth_format),
+                         .least_code = setup.limits.least,
+                         .most_code = setup.limits.most,
                          .test = flag(early_z.test),
                          .write = flag(early_z.write),
                          .func = static_cast<std::uint8_t>(early_z.func),
@@ -110,7 +117,7 @@ bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& co
 }
 
 DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat format, const Config& config) {
-  const std::uint32_t z = format == DepthFormat::kFloat32 ? code : code << vertex_depth_fraction(format);
+  const std::int64_t z = vertex_depth_of_code(format, code);
   const auto vertex = [&](int x, int y) {
     return ScreenVertex{
         .x = x << config.raster.sub_pixel_bits, .y = y << config.raster.sub_pixel_bits, .z = z};
@@ -119,11 +126,12 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
   const ScreenVertex top_right = vertex(rect.x_last + 1, rect.y_first);
   const ScreenVertex bottom_left = vertex(rect.x_first, rect.y_last + 1);
   const ScreenVertex bottom_right = vertex(rect.x_last + 1, rect.y_last + 1);
-  return {.triangle = {ScreenTriangle{.v = {top_left, top_right, bottom_left}, .triangle = 0},
+  return {.triangle = {ScreenTriangle{.v = {top_left, top_right, bottom_left}},
                        ScreenTriangle{.v = {top_right, bottom_right, bottom_left}, .triangle = 1}},
           .setup = {.sub_pixel_bits = config.raster.sub_pixel_bits,
                     .bounds = rect,
                     .depth_format = format,
+                    .limits = {.least = 0, .most = largest_code(format)},
                     .interpolator = config.depth.interpolator},
           .early_z = {.test = true,
                       .write = true,

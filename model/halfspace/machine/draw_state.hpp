@@ -21,6 +21,9 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 /// negative. Clipping to the sides of the clip volume would leave no sample outside of them.
 PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule);
 
+/// Depth clamp keeps fragments within the draw's depth range; without it they are kept within [0, 1].
+DepthLimits depth_limits(const Command& draw, DepthFormat format);
+
 WalkerConfig walker_config(const Config& config);
 
 /// `format` is that of the target's depth surface, none where it has none.

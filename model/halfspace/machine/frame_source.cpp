@@ -107,7 +107,7 @@ void FrameSource::begin_clear(const Command& command) {
   ++result_.clears;
   const Surface& surface = result_.surfaces[target.depth_surface];
   const PixelRect rect = drawable_rect(command.scissor, target);
-  const std::uint32_t code = clear_code(surface.format, command.clear_depth);
+  const std::uint32_t code = code_of_depth(surface.format, command.clear_depth);
   if (clears_fast(rect, surface, config_)) {
     fast_clear_ = SourceItem{.surface = target.depth_surface, .code = code};
     return;

@@ -37,7 +37,8 @@ namespace halfspace {
   L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo,                                                       \
     config.edge_evaluator.pipe_stages + 1 /* and the output register */,         StallPoint::kEdgeEvaluator)   \
   L(QuadGenerator, quad_generator,  quad_generator.fifo,  2,                     StallPoint::kQuadGenerator)   \
-  L(EarlyZPending, early_z_pending, early_z.pending,      12,                    std::nullopt)                 \
+  L(EarlyZPending, early_z_pending, early_z.pending,      config.depth.latency + 5 /* lookup and store */,     \
+    std::nullopt)                                                                                            \
   L(EarlyZ,        early_z,         early_z.fifo,         2,                     StallPoint::kSink)
 
 /// The same for the buffers of the memory side: FIFOs with credits, but no links.

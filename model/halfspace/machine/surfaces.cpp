@@ -24,7 +24,7 @@ std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_
       continue;
     }
     surface.format = target.depth_format;
-    surface.codes = {width, height, tile_size, clear_code(target.depth_format, 1)};
+    surface.codes = {width, height, tile_size, largest_code(target.depth_format)};
     surface.fragments = {width, height, tile_size, 0};
     surface.survivors = {width, height, tile_size, 0};
     if (keep_visible) {

@@ -26,6 +26,9 @@ enum class DepthFunc : std::uint32_t {
 /// Vertex depths of unorm surfaces carry this many bits: the stored code and, below it, a fraction.
 inline constexpr int kVertexDepthBits = 31;
 
+/// Vertex depths are less than 2^kVertexDepthRange in magnitude: depth clamp lets them leave [0, 1].
+inline constexpr int kVertexDepthRange = 15;
+
 /// Bits of a stored unorm code; 0 for float32 and none.
 constexpr int unorm_bits(DepthFormat format) {
   return format == DepthFormat::kUnorm16 ? 16 : format == DepthFormat::kUnorm24 ? 24 : 0;
@@ -37,27 +40,37 @@ constexpr int vertex_depth_fraction(DepthFormat format) { return kVertexDepthBit
 /// Largest code of a unorm surface: depth 1.
 constexpr std::uint32_t max_unorm_code(DepthFormat format) { return (1u << unorm_bits(format)) - 1; }
 
-/// The depth of a vertex as it enters setup, from a depth in [0, 1]: for unorm surfaces the code scaled by
-/// 2^vertex_depth_fraction, rounded to nearest even; for float32 the bits of the nearest float.
-inline std::uint32_t vertex_depth_code(DepthFormat format, double depth) {
+/// The stored code of depth 1.
+constexpr std::uint32_t largest_code(DepthFormat format) {
+  return format == DepthFormat::kFloat32 ? std::bit_cast<std::uint32_t>(1.0f) : max_unorm_code(format);
+}
+
+/// The depth of a vertex, or what polygon offset adds to it, as it enters setup: for unorm surfaces the code
+/// scaled by 2^vertex_depth_fraction, rounded to nearest even; for float32 the bits of the nearest float.
+inline std::int64_t vertex_depth_code(DepthFormat format, double depth) {
   if (format == DepthFormat::kFloat32) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(depth) + 0.0f);  // + 0 turns -0 into 0
   }
   const double one = std::ldexp(static_cast<double>(max_unorm_code(format)), vertex_depth_fraction(format));
-  return static_cast<std::uint32_t>(std::nearbyint(depth * one));
+  return static_cast<std::int64_t>(std::nearbyint(depth * one));
 }
 
-/// The stored code nearest to a vertex depth, halves upwards.
-constexpr std::uint32_t stored_code(DepthFormat format, std::uint32_t vertex_depth) {
+/// A vertex depth of a stored code.
+constexpr std::int64_t vertex_depth_of_code(DepthFormat format, std::uint32_t code) {
+  return format == DepthFormat::kFloat32 ? code : std::int64_t{code} << vertex_depth_fraction(format);
+}
+
+/// The stored code nearest to a vertex depth in [0, 1], halves upwards.
+constexpr std::uint32_t stored_code(DepthFormat format, std::int64_t vertex_depth) {
   if (format == DepthFormat::kFloat32) {
-    return vertex_depth;
+    return static_cast<std::uint32_t>(vertex_depth);
   }
   const int fraction = vertex_depth_fraction(format);
-  return (vertex_depth + (1u << (fraction - 1))) >> fraction;
+  return static_cast<std::uint32_t>((vertex_depth + (std::int64_t{1} << (fraction - 1))) >> fraction);
 }
 
-/// The stored code of a cleared depth; values outside [0, 1] are clamped as the graphics APIs ask.
-inline std::uint32_t clear_code(DepthFormat format, float depth) {
+/// The stored code of a depth; values outside [0, 1] are clamped as the graphics APIs ask.
+inline std::uint32_t code_of_depth(DepthFormat format, float depth) {
   return stored_code(format, vertex_depth_code(format, std::clamp(static_cast<double>(depth), 0.0, 1.0)));
 }
 

@@ -23,7 +23,9 @@ namespace halfspace {
   W(EdgeCount,       3,                                                "edges of a triangle: one accept bit each")     \
   W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share") \
   W(FlagBits,        1,                                                "yes or no")                                  \
-  W(VertexDepthBits, 31,                                               "depth of a vertex: a unorm code with a fraction below it, or a float32 without its sign") \
+  W(VertexDepthBits, 48,                                               "depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits") \
+  W(WordBits,        64,                                               "depth with the binary point behind the sign, on a scale of the triangle") \
+  W(ExponentBits,    9,                                                "power of two above all depths of a triangle, signed") \
   W(CodeBits,        32,                                               "a stored depth code of any format")           \
   W(ReciprocalBits,  32,                                               "(2^63 - 1) / (2A scaled to 32 bits)")         \
   W(ShiftBits,       6,                                                "E >> shift is on the scale of the 32-bit 2A, signed") \

@@ -132,7 +132,7 @@ Fate draw_piece(const DrawContext& c, const WindowTriangle& t, double largest_de
   if (c.draw.has(front ? Flag::kCullFront : Flag::kCullBack)) return Fate::kCulled;
 
   const DepthPlane plane = depth_plane(t);
-  const double offset = polygon_offset(plane, largest_depth, c.draw, c.storage);
+  const double offset = polygon_offset(depth_plane(on_grid(t, bits)), largest_depth, c.draw, c.storage);
   const TieRule rule = c.draw.has(Flag::kBottomLeftRule) ? TieRule::kBottomLeft : TieRule::kTopLeft;
   const PixelRect box = intersect(bounding_box(snapped, bits), c.window);
   // Aligned 2x2 blocks: an even corner at or before the box, which lies in the target and so is not negative.

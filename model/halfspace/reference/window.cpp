@@ -25,6 +25,16 @@ GridPoint snap(const WindowVertex& v, int subpixel_bits) {
           static_cast<std::int64_t>(std::nearbyint(v.y * scale))};
 }
 
+WindowTriangle on_grid(const WindowTriangle& t, int subpixel_bits) {
+  WindowTriangle result = t;
+  for (WindowVertex& v : result) {
+    const GridPoint p = snap(v, subpixel_bits);
+    v.x = std::ldexp(static_cast<double>(p.x), -subpixel_bits);
+    v.y = std::ldexp(static_cast<double>(p.y), -subpixel_bits);
+  }
+  return result;
+}
+
 DepthPlane depth_plane(const WindowTriangle& t) {
   // Cramer's rule for z - z0 = dzdx (x - x0) + dzdy (y - y0) at the other two vertices.
   const double x1 = t[1].x - t[0].x;

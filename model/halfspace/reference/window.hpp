@@ -26,6 +26,9 @@ using WindowTriangle = std::array<WindowVertex, 3>;
 /// The nearest point of the grid of 1/2^subpixel_bits pixel, ties to even.
 [[nodiscard]] GridPoint snap(const WindowVertex& v, int subpixel_bits);
 
+/// The triangle with its corners moved to that grid.
+[[nodiscard]] WindowTriangle on_grid(const WindowTriangle& t, int subpixel_bits);
+
 /// Depth as a linear function of the window position: z + dzdx * (x - x0) + dzdy * (y - y0).
 struct DepthPlane {
   double x0 = 0;
@@ -42,8 +45,8 @@ struct DepthPlane {
 [[nodiscard]] DepthPlane depth_plane(const WindowTriangle& t);
 
 /// The polygon offset of `draw` (Vulkan 1.3, "Depth Bias"; OpenGL 4.6, 14.6.5): m * factor + r * units,
-/// clamped, where m is the larger slope and r the smallest step of depth that the format resolves. For
-/// float32 that depends on the largest magnitude of depth in the whole primitive, not in a piece that
+/// clamped, where m is the larger slope of `plane` and r the smallest step of depth that the format resolves.
+/// For float32 that depends on the largest magnitude of depth in the whole primitive, not in a piece that
 /// clipping left.
 [[nodiscard]] double polygon_offset(const DepthPlane& plane, double largest_depth, const Command& draw,
                                     Storage storage);

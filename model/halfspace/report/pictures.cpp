@@ -128,7 +128,7 @@ Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_
 
 Picture depth_picture(const Surface& surface) {
   std::vector<std::uint32_t> sorted;
-  const std::uint32_t far = clear_code(surface.format, 1);
+  const std::uint32_t far = largest_code(surface.format);
   for (int y = 0; y < surface.codes.height(); y += 2) {
     for (int x = 0; x < surface.codes.width(); x += 2) {
       if (surface.codes.at(x, y) != far) {

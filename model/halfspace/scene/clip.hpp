@@ -6,11 +6,10 @@
 
 namespace halfspace {
 
-/// A convex polygon. A triangle cut by the six planes of a clip volume and the two depth limits has at most
-/// 11 corners.
+/// A convex polygon. A triangle cut by the six planes of a clip volume has at most 9 corners.
 template <class Vertex>
 struct Polygon {
-  std::array<Vertex, 11> v;
+  std::array<Vertex, 9> v;
   std::size_t size = 0;
 
   void push(const Vertex& vertex) { v[size++] = vertex; }

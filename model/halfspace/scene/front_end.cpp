@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "halfspace/scene/far_depth.hpp"
+
 namespace halfspace {
 namespace {
 
@@ -20,7 +22,10 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
     : frame_(frame),
       draw_(draw),
       format_(format),
+      sub_pixel_bits_(sub_pixel_bits),
       sub_pixels_(1 << sub_pixel_bits),
+      screen_({.x_last = static_cast<std::int32_t>(frame.targets[draw.target].width) - 1,
+               .y_last = static_cast<std::int32_t>(frame.targets[draw.target].height) - 1}),
       depth_clamp_(draw.has(Flag::kDepthClamp)),
       polygon_offset_(draw.has(Flag::kPolygonOffset) && format != DepthFormat::kNone) {
   const double near = draw.depth_range.x;
@@ -28,9 +33,8 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
   const bool symmetric = draw.has(Flag::kNdcZMinusOneToOne);
   z_scale_ = symmetric ? (far - near) / 2 : far - near;
   z_bias_ = symmetric ? (far + near) / 2 : near;
-  // Depth bias may leave the depth range of the viewport, but not [0, 1].
-  z_least_ = polygon_offset_ && !depth_clamp_ ? 0 : std::min(near, far);
-  z_most_ = polygon_offset_ && !depth_clamp_ ? 1 : std::max(near, far);
+  z_least_ = std::min(near, far);
+  z_most_ = std::max(near, far);
 
   const double x_half = draw.viewport.z / 2.0;
   const double y_half = draw.viewport.w / 2.0;
@@ -50,16 +54,6 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
 FrontEnd::Window FrontEnd::to_window(const Clip& v) const {
   return {draw_.viewport.x + (v.x / v.w + 1) * draw_.viewport.z / 2,
           draw_.viewport.y + (v.y / v.w + 1) * draw_.viewport.w / 2, v.z / v.w * z_scale_ + z_bias_};
-}
-
-ScreenVertex FrontEnd::snap(const Window& v) const {
-  ScreenVertex out{.x = static_cast<std::int32_t>(std::lrint(v.x * sub_pixels_)),
-                   .y = static_cast<std::int32_t>(std::lrint(v.y * sub_pixels_)),
-                   .z = 0};
-  if (format_ != DepthFormat::kNone) {
-    out.z = vertex_depth_code(format_, std::clamp(v.z, z_least_, z_most_));
-  }
-  return out;
 }
 
 void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
@@ -103,71 +97,80 @@ void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
     v.y = std::clamp(v.y, -kGuardBand, kGuardBand);
     window.push(v);
   }
-  if (polygon_offset_) {
-    const double offset = offset_of(window);
-    for (std::size_t i = 0; i < window.size; ++i) {
-      window.v[i].z += offset;
-    }
-  }
-  if ((depth_clamp_ || polygon_offset_) && format_ != DepthFormat::kNone) {
-    emit_within_depth_range(window, index, out, counters);
-  } else {
-    emit_fan(window, index, out, counters);
-  }
-}
-
-double FrontEnd::offset_of(const Polygon<Window>& polygon) const {
-  // The plane of the largest triangle of the fan: cutting can leave others next to nothing.
-  double area2 = 0;
-  double slope = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
-    const Window u = polygon.v[i] - polygon.v[0];
-    const Window v = polygon.v[i + 1] - polygon.v[0];
-    const double area = u.x * v.y - u.y * v.x;
-    if (std::abs(area) > std::abs(area2)) {
-      area2 = area;
-      slope = std::max(std::abs((u.z * v.y - v.z * u.y) / area), std::abs((v.z * u.x - u.z * v.x) / area));
-    }
-  }
-  double unit = 0;
-  if (format_ == DepthFormat::kFloat32) {
-    double z_max = 0;
-    for (std::size_t i = 0; i < polygon.size; ++i) {
-      z_max = std::max(z_max, std::abs(polygon.v[i].z));
-    }
-    unit = z_max > 0 ? std::ldexp(1.0, std::ilogb(z_max) - 23) : 0;
-  } else {
-    unit = 1.0 / max_unorm_code(format_);  // a code; 2^-n is less and would leave some depths on theirs
-  }
-  const double offset = slope * draw_.offset_factor + unit * draw_.offset_units;
-  const double clamp = draw_.offset_clamp;
-  return clamp > 0 ? std::min(offset, clamp) : clamp < 0 ? std::max(offset, clamp) : offset;
-}
-
-/// Depth clamp acts on fragments: a triangle that leaves the range bends where it does. Its parts beyond are
-/// cut off and laid flat onto the limit, which gives every fragment the clamped depth of the original plane.
-void FrontEnd::emit_within_depth_range(const Polygon<Window>& polygon, std::uint32_t index,
-                                       std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const {
-  const auto below = [&](const Window& v) { return z_least_ - v.z; };
-  const auto above = [&](const Window& v) { return v.z - z_most_; };
-  const auto beyond = [&](const Window& v) { return v.z < z_least_ || v.z > z_most_; };
-  if (std::none_of(polygon.v.begin(), polygon.v.begin() + polygon.size, beyond)) {
-    emit_fan(polygon, index, out, counters);
-    return;
-  }
-  ++counters.depth_split;
-  const Polygon<Window> under_most = clip(polygon, [&](const Window& v) { return -above(v); });
-  emit_fan(clip(under_most, [&](const Window& v) { return -below(v); }), index, out, counters);
-  emit_fan(clip(polygon, below), index, out, counters);  // snap() lays both flat
-  emit_fan(clip(polygon, above), index, out, counters);
+  emit_fan(window, index, out, counters);
 }
 
 void FrontEnd::emit_fan(const Polygon<Window>& polygon, std::uint32_t index, std::vector<ScreenTriangle>& out,
                         FrontEndCounters& counters) const {
+  const double unit = polygon_offset_ ? offset_unit(polygon) : 0;
   for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
-    out.push_back({{snap(polygon.v[0]), snap(polygon.v[i]), snap(polygon.v[i + 1])}, index});
-    ++counters.emitted;
+    emit({polygon.v[0], polygon.v[i], polygon.v[i + 1]}, unit, index, out, counters);
   }
+}
+
+void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std::uint32_t index,
+                    std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const {
+  ScreenTriangle triangle{.v = {}, .triangle = index};
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.v[i].x = static_cast<std::int32_t>(std::lrint(corner[i].x * sub_pixels_));
+    triangle.v[i].y = static_cast<std::int32_t>(std::lrint(corner[i].y * sub_pixels_));
+  }
+  if (format_ != DepthFormat::kNone) {
+    std::array<double, 3> z{corner[0].z, corner[1].z, corner[2].z};
+    if (!depth_clamp_) {
+      for (double& depth : z) {
+        depth = std::clamp(depth, z_least_, z_most_);  // clipped to it, up to rounding
+      }
+    }
+    const double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
+    if (is_far(z)) {
+      for (double& depth : z) {
+        depth += offset;
+      }
+      counters.emitted +=
+          emit_by_sample(triangle, z, {z_least_, z_most_}, format_, sub_pixel_bits_, screen_, out);
+      ++counters.far_depth;
+      return;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.v[i].z = vertex_depth_code(format_, z[i]);
+    }
+    triangle.offset = vertex_depth_code(format_, offset);
+  }
+  out.push_back(triangle);
+  ++counters.emitted;
+}
+
+/// r of the specification: what one unit of polygon offset is.
+double FrontEnd::offset_unit(const Polygon<Window>& polygon) const {
+  if (format_ != DepthFormat::kFloat32) {
+    return 1.0 / max_unorm_code(format_);  // a code; 2^-n is less and would leave some depths on theirs
+  }
+  double z_max = 0;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    z_max = std::max(z_max, std::abs(polygon.v[i].z));
+  }
+  return z_max > 0 ? std::ldexp(1.0, std::ilogb(z_max) - 23) : 0;
+}
+
+/// The slope is that of the snapped triangle, as its depth is: on needles they differ many times.
+double FrontEnd::offset_of(const ScreenTriangle& snapped, const std::array<double, 3>& z,
+                           double offset_unit) const {
+  const auto x = [&](std::size_t i) { return (snapped.v[i].x - snapped.v[0].x) / sub_pixels_; };
+  const auto y = [&](std::size_t i) { return (snapped.v[i].y - snapped.v[0].y) / sub_pixels_; };
+  const double area = x(1) * y(2) - x(2) * y(1);
+  const double rise1 = z[1] - z[0];
+  const double rise2 = z[2] - z[0];
+  const double slope =
+      area == 0 ? 0
+                : std::max(std::abs(rise1 * y(2) - rise2 * y(1)), std::abs(rise2 * x(1) - rise1 * x(2))) /
+                      std::abs(area);
+  double offset = slope * draw_.offset_factor + offset_unit * draw_.offset_units;
+  const double clamp = draw_.offset_clamp;
+  offset = clamp > 0 ? std::min(offset, clamp) : clamp < 0 ? std::max(offset, clamp) : offset;
+  // Nothing more changes a fragment: with this much all are clamped.
+  const auto [z_min, z_max] = std::minmax({z[0], z[1], z[2]});
+  return std::clamp(offset, -1 - z_max, 2 - z_min);
 }
 
 }  // namespace halfspace

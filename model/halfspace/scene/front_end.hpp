@@ -1,9 +1,9 @@
 /// The front end: from clip-space triangles to triangles on the sub-pixel grid.
 ///
 /// Clips in homogeneous coordinates against near, far and the guard band, divides, applies the viewport,
-/// polygon offset and depth clamp, and snaps to nearest even. In double precision: what reaches setup is the
-/// correctly rounded position up to a few units of 2^-53. Rules: Vulkan 1.3 specification,
-/// sections 25.4, 25.7 and 25.11.
+/// snaps to nearest even, and finds the polygon offset of the snapped triangle. In double precision: what
+/// reaches setup is the correctly rounded position up to a few units of 2^-53. Rules: Vulkan 1.3
+/// specification, sections 25.4, 25.7 and 25.11.
 #pragma once
 
 #include <array>
@@ -34,22 +34,25 @@ class FrontEnd {
   using Window = glm::dvec3;
 
   [[nodiscard]] Window to_window(const Clip& v) const;
-  [[nodiscard]] double offset_of(const Polygon<Window>& polygon) const;
-  void emit_within_depth_range(const Polygon<Window>& polygon, std::uint32_t index,
-                               std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
   void emit_fan(const Polygon<Window>& polygon, std::uint32_t index, std::vector<ScreenTriangle>& out,
                 FrontEndCounters& counters) const;
-  [[nodiscard]] ScreenVertex snap(const Window& v) const;
+  void emit(const std::array<Window, 3>& corner, double offset_unit, std::uint32_t index,
+            std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
+  [[nodiscard]] double offset_unit(const Polygon<Window>& polygon) const;
+  [[nodiscard]] double offset_of(const ScreenTriangle& snapped, const std::array<double, 3>& z,
+                                 double offset_unit) const;
 
   const Frame& frame_;
   const Command& draw_;
   DepthFormat format_;
+  int sub_pixel_bits_;
   double sub_pixels_;
+  PixelRect screen_;  ///< the target
   bool depth_clamp_;
   bool polygon_offset_;
   double z_scale_;  ///< window z = z / w * scale + bias
   double z_bias_;
-  double z_least_;  ///< depth is clamped to this range
+  double z_least_;  ///< the depth range
   double z_most_;
   std::array<Clip, 6> planes_;  ///< inside: dot(plane, v) >= 0
   std::size_t plane_count_ = 0;

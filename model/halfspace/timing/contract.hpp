@@ -17,7 +17,6 @@ inline constexpr int kSetupCullLatency = latency(Link::kSetupQueue, {});
 inline constexpr int kSetupDivideLatency = latency(Link::kSetup, {});
 inline constexpr int kWalkerLatency = latency(Link::kTileWalker, {});
 inline constexpr int kQuadLatency = latency(Link::kQuadGenerator, {});
-inline constexpr int kLookupLatency = latency(Link::kEarlyZPending, {});
 inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 
 /// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.

@@ -12,7 +12,7 @@ namespace halfspace {
   C(clipped_away,      "dropped: nothing is left inside the clip volume")                 \
   C(degenerate,        "dropped: w is not positive after clipping")                       \
   C(clipped,           "cut by a plane of the clip volume or the guard band")             \
-  C(depth_split,       "bent where depth clamp or polygon offset leaves the depth range") \
+  C(far_depth,         "resolved sample by sample: a vertex is too far outside [0, 1]")    \
   C(emitted,           "given to setup; cutting makes several of one")
 
 #define HALFSPACE_SETUP_COUNTERS(C)                                          \

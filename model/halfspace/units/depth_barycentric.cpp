@@ -34,26 +34,35 @@ void set_reciprocal(DepthEquation& eq) {
 std::uint32_t barycentric_float(const DepthEquation& eq, std::int64_t e1, std::int64_t e2) {
   const std::array<std::int64_t, 3> e{eq.area2 - e1 - e2, e1, e2};
   std::array<std::uint64_t, 3> product{};
+  std::array<bool, 3> negative{};
   std::array<int, 3> exponent{};
   int top = -1000;  // below every exponent that can occur
   for (std::size_t i = 0; i < 3; ++i) {
     const Normalised w = normalise(static_cast<std::uint64_t>(e[i]), 0);
-    const FloatParts z = float_parts(eq.z[i]);
+    const FloatParts z = float_parts(static_cast<std::uint32_t>(eq.z[i]));
     product[i] = w.m * z.mantissa;
+    negative[i] = z.negative;
     exponent[i] = w.exponent + z.exponent;
     if (product[i] != 0) {
       top = std::max(top, exponent[i]);
     }
   }
-  std::uint64_t sum = 0;
+  std::int64_t sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const int shift = top - exponent[i];
-    sum += product[i] != 0 && shift < 64 ? product[i] >> shift : 0;
+    const auto term = static_cast<std::int64_t>(product[i] != 0 && shift < 64 ? product[i] >> shift : 0);
+    sum += negative[i] ? -term : term;
   }
   // sum * 2^top / 2A, where 1 / 2A is reciprocal * 2^-63 * 2^-shift
-  const Normalised s = normalise(sum, top);
-  const std::uint32_t bits = float_bits(s.m * eq.reciprocal, s.exponent - 63 - eq.shift);
-  return std::clamp(bits, eq.min_code, eq.max_code);
+  const Normalised s = normalise(static_cast<std::uint64_t>(sum < 0 ? -sum : sum), top);
+  const std::uint64_t depth = s.m * eq.reciprocal;
+  const int place = s.exponent - 63 - eq.shift;
+  if (eq.offset == 0) {
+    return sum < 0 ? 0 : float_bits(depth, place);
+  }
+  const int cut = eq.exponent - kLongWordFraction - place;  // to a word; not negative, as depth < 2^exponent
+  const auto word = static_cast<std::int64_t>(cut < 64 ? depth >> cut : 0);
+  return float_of_word(Int128{sum < 0 ? -word : word} + eq.offset, eq.exponent);
 }
 
 }  // namespace halfspace

@@ -1,6 +1,8 @@
 /// Depth at a sample from the depth equation of its triangle: the two ways that hardware offers, plane
-/// (depth_plane.hpp) and barycentric (depth_barycentric.hpp). Both keep the result between the depths of the
-/// three vertices. Cost, error and the proof of the bounds: docs/numerics.md.
+/// (depth_plane.hpp) and barycentric (depth_barycentric.hpp). To the interpolated depth both add the
+/// triangle's polygon offset, round the sum to a code, and clamp that to the range of the three vertices and
+/// of the draw. Nothing of this changes what is covered. Cost, error and the proof of the bounds:
+/// docs/numerics.md.
 #pragma once
 
 #include <array>
@@ -13,10 +15,17 @@ namespace halfspace {
 
 enum class DepthInterpolator : std::uint8_t { kPlane, kBarycentric };
 
-/// Fills the fields of `out` that the interpolator and the format use. `v` in positive order, vertex i
-/// opposite to edge[i]; out.bias must be set; area2 > 0 is twice the area in squared sub-pixel units.
-void make_depth_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge,
-                         std::int64_t area2, DepthFormat format, DepthInterpolator interpolator,
-                         DepthEquation& out);
+/// Stored codes between which every fragment of a draw is kept: those of the depth range with depth clamp, of
+/// 0 and 1 without.
+struct DepthLimits {
+  std::uint32_t least = 0;
+  std::uint32_t most = ~0u;  ///< no more than the code of 1, whatever is here
+};
+
+/// Fills `out`, all but `bias`, which must be set where the interpolator uses it. `v` in positive order, with
+/// vertex i opposite to edge[i]; area2 > 0 is twice the area in squared sub-pixel units.
+void make_depth_equation(const std::array<ScreenVertex, 3>& v, std::int64_t offset,
+                         const std::array<Edge, 3>& edge, std::int64_t area2, DepthFormat format,
+                         const DepthLimits& limits, DepthInterpolator interpolator, DepthEquation& out);
 
 }  // namespace halfspace

@@ -1,11 +1,7 @@
 #include "halfspace/units/depth_plane.hpp"
 
-#include <tuple>
-
 namespace halfspace {
 namespace {
-
-__extension__ using Int128 = __int128;
 
 /// numerator * 2^kGradientFraction / area2, cut towards zero.
 Modular gradient(Int128 numerator, std::int64_t area2) {
@@ -28,43 +24,34 @@ Modular gradient(std::int64_t numerator, std::int64_t area2) {
   return static_cast<Modular>(Int128{numerator < 0 ? -quotient : quotient});
 }
 
-/// A float32 as a word where 1 is 2^exponent; lower bits are cut off.
-std::int64_t word_of_float(std::uint32_t bits, int exponent) {
-  const FloatParts z = float_parts(bits);
-  const int left = z.exponent + 63 - exponent;
-  return left >= 0 ? std::int64_t{z.mantissa} << left : left > -24 ? z.mantissa >> -left : 0;
-}
-
 template <class Sum>
-void set_plane(const std::array<std::int64_t, 3>& z, const std::array<Edge, 3>& edge, std::int64_t area2,
-               PlaneEquation& out) {
+void set_gradients(const std::array<std::int64_t, 3>& word, const std::array<Edge, 3>& edge,
+                   std::int64_t area2, PlaneEquation& out) {
   // z = z0 + ((z1 - z0) E1 + (z2 - z0) E2) / 2A, and a and b are the changes of E
-  const auto dz1 = static_cast<Sum>(z[1] - z[0]);
-  const auto dz2 = static_cast<Sum>(z[2] - z[0]);
-  out.dx = gradient(dz1 * edge[1].a + dz2 * edge[2].a, area2);
-  out.dy = gradient(dz1 * edge[1].b + dz2 * edge[2].b, area2);
-  out.z = z[0];
-  std::tie(out.low, out.high) = std::minmax({z[0], z[1], z[2]});
+  const Sum rise1 = Sum{word[1]} - word[0];
+  const Sum rise2 = Sum{word[2]} - word[0];
+  out.dx = gradient(rise1 * edge[1].a + rise2 * edge[2].a, area2);
+  out.dy = gradient(rise1 * edge[1].b + rise2 * edge[2].b, area2);
+  out.z = word[0];
 }
 
 }  // namespace
 
-PlaneEquation plane_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge,
-                             std::int64_t area2, DepthFormat format) {
-  PlaneEquation plane{.x = v[0].x, .y = v[0].y};
-  if (format != DepthFormat::kFloat32) {
-    set_plane<std::int64_t>({v[0].z, v[1].z, v[2].z}, edge, area2, plane);
-    return plane;
+void set_plane(const ScreenVertex& vertex, const std::array<Edge, 3>& edge, DepthFormat format,
+               DepthEquation& eq) {
+  eq.plane.x = vertex.x;
+  eq.plane.y = vertex.y;
+  const bool is_float = format == DepthFormat::kFloat32;
+  if (!is_float && !eq.beyond) {
+    set_gradients<std::int64_t>(eq.z, edge, eq.area2, eq.plane);
+    return;
   }
-  // The power of two above the largest: that of its exponent field, subnormal numbers as if it were 1.
-  const std::uint32_t field = std::max(std::max({v[0].z, v[1].z, v[2].z}) >> 23, 1u);
-  plane.exponent = static_cast<std::int16_t>(static_cast<int>(field) - 126);
-  const auto word = [&](const ScreenVertex& vertex) { return word_of_float(vertex.z, plane.exponent); };
-  set_plane<Int128>({word(v[0]), word(v[1]), word(v[2])}, edge, area2, plane);
-  if (float_of_word(static_cast<std::uint64_t>(plane.low), plane) < std::min({v[0].z, v[1].z, v[2].z})) {
-    ++plane.low;  // the word of the nearest vertex was cut
+  std::array<std::int64_t, 3> word{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    word[i] = is_float ? word_of_float(static_cast<std::uint32_t>(eq.z[i]), eq.exponent)
+                       : word_of_unorm(eq.z[i], eq.exponent);
   }
-  return plane;
+  set_gradients<Int128>(word, edge, eq.area2, eq.plane);
 }
 
 }  // namespace halfspace

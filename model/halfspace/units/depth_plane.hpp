@@ -4,12 +4,11 @@
 /// the vertices, so its low bits say all: gradients may overflow as long as they are right modulo the word.
 /// Error and the proof of the bounds: docs/numerics.md.
 ///
-/// A word is a signed number below 1 with its binary point behind the sign: 32 bits on unorm surfaces, where
-/// 1 is 2^31 units of a vertex depth, and 64 bits on float32 surfaces, where 1 is the power of two above the
-/// largest vertex depth.
+/// A word is a signed number below 1 with its binary point behind the sign. A short one has 32 bits: of a
+/// vertex depth on unorm surfaces, as it is. A long one has 64, for float32 surfaces and for vertex depths
+/// outside [0, 1]; in it 1 is 2^DepthEquation::exponent.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -20,7 +19,19 @@
 
 namespace halfspace {
 
+using ShortWord = std::uint32_t;
+using LongWord = std::uint64_t;
+
 inline constexpr int kGradientFraction = 22;  ///< bits of a gradient below those of the word
+
+/// Fills `eq.plane`; the rest of `eq` is there. `vertex` is vertex 0, vertex i is opposite to edge[i].
+void set_plane(const ScreenVertex& vertex, const std::array<Edge, 3>& edge, DepthFormat format,
+               DepthEquation& eq);
+
+/// A vertex depth of a unorm surface as a long word.
+constexpr std::int64_t word_of_unorm(std::int64_t z, int exponent) {
+  return z << (kLongWordFraction - kVertexDepthBits - exponent);
+}
 
 /// The plane at one tile.
 template <class Word>
@@ -28,23 +39,23 @@ struct TilePlane {
   Word origin;  ///< at the centre of the tile's first pixel
   Word dx;      ///< change for a pixel in x
   Word dy;
+
+  /// At pixel (x, y) of the tile.
+  [[nodiscard]] std::make_signed_t<Word> at(std::uint32_t x, std::uint32_t y) const {
+    return static_cast<std::make_signed_t<Word>>(origin + x * dx + y * dy);
+  }
 };
 
-/// `v` in positive order, vertex i opposite to edge[i]; area2 > 0 is twice the area in squared sub-pixel
-/// units.
-PlaneEquation plane_equation(const std::array<ScreenVertex, 3>& v, const std::array<Edge, 3>& edge,
-                             std::int64_t area2, DepthFormat format);
-
-/// `x` and `y` are the tile's first pixel. Word is std::uint32_t or std::uint64_t.
+/// `x` and `y` are the tile's first pixel.
 template <class Word>
 TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int32_t y, int sub_pixel_bits) {
-  using Product = std::conditional_t<sizeof(Word) == 4, std::uint64_t, Modular>;
+  using Product = std::conditional_t<sizeof(Word) == sizeof(ShortWord), std::uint64_t, Modular>;
   const auto dx = static_cast<Product>(plane.dx);
   const auto dy = static_cast<Product>(plane.dy);
   const std::int64_t half_pixel = std::int64_t{1} << (sub_pixel_bits - 1);
   const auto right = static_cast<Product>((std::int64_t{x} << sub_pixel_bits) + half_pixel - plane.x);
   const auto down = static_cast<Product>((std::int64_t{y} << sub_pixel_bits) + half_pixel - plane.y);
-  // The words nearest to `value`, which has `fraction` bits more.
+  // The word nearest to `value`, which has `fraction` bits more.
   const auto nearest = [](Product value, int fraction) {
     return static_cast<Word>((value + (Product{1} << (fraction - 1))) >> fraction);
   };
@@ -52,25 +63,6 @@ TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int3
   return {.origin = nearest(origin, kGradientFraction),
           .dx = nearest(dx, kGradientFraction - sub_pixel_bits),
           .dy = nearest(dy, kGradientFraction - sub_pixel_bits)};
-}
-
-/// The word at pixel (x, y) of the tile, kept between the vertices.
-template <class Word>
-Word plane_word(const PlaneEquation& plane, const TilePlane<Word>& tile, std::uint32_t x, std::uint32_t y) {
-  using Signed = std::make_signed_t<Word>;
-  const auto word = static_cast<Signed>(tile.origin + x * tile.dx + y * tile.dy);
-  return static_cast<Word>(
-      std::clamp(word, static_cast<Signed>(plane.low), static_cast<Signed>(plane.high)));
-}
-
-/// Stored code of a word of a unorm surface; halves upwards.
-constexpr std::uint32_t unorm_of_word(std::uint32_t word, int fraction) {
-  return (word + (1u << (fraction - 1))) >> fraction;
-}
-
-/// Stored bits of a word of a float32 surface.
-constexpr std::uint32_t float_of_word(std::uint64_t word, const PlaneEquation& plane) {
-  return float_bits(word, plane.exponent - 63);
 }
 
 }  // namespace halfspace

@@ -1,4 +1,4 @@
-/// float32 taken apart and put together: depth is never negative here, so there are no signs.
+/// float32 taken apart and put together, and float32 as fixed-point words.
 #pragma once
 
 #include <algorithm>
@@ -7,19 +7,28 @@
 
 namespace halfspace {
 
-/// A non-negative float32 as an integer of at most 24 bits times 2^exponent.
+/// A float32 as an integer of at most 24 bits times 2^exponent, and its sign.
 struct FloatParts {
   std::uint32_t mantissa;
   int exponent;
+  bool negative;
 };
 
 constexpr FloatParts float_parts(std::uint32_t bits) {
-  const int field = static_cast<int>(bits >> 23);
+  const int field = static_cast<int>(bits >> 23 & 0xFF);
   const std::uint32_t fraction = bits & 0x7FFFFFu;
-  return field == 0 ? FloatParts{fraction, -149} : FloatParts{fraction | 0x800000u, field - 150};
+  const bool negative = bits >> 31 != 0;
+  return field == 0 ? FloatParts{fraction, -149, negative}
+                    : FloatParts{fraction | 0x800000u, field - 150, negative};
 }
 
-/// The bits of the float32 nearest to m * 2^exponent, halves upwards. The value is at most about 1.
+/// Orders float32 by value: a number that is less for the bits of a smaller float.
+constexpr std::int32_t float_order(std::uint32_t bits) {
+  const auto magnitude = static_cast<std::int32_t>(bits & 0x7FFFFFFFu);
+  return bits >> 31 != 0 ? -magnitude : magnitude;
+}
+
+/// The bits of the float32 nearest to m * 2^exponent, halves upwards. The value is at most about 2^16.
 constexpr std::uint32_t float_bits(std::uint64_t m, int exponent) {
   if (m == 0) {
     return 0;
@@ -36,6 +45,26 @@ constexpr std::uint32_t float_bits(std::uint64_t m, int exponent) {
   // Adding the mantissa with its hidden bit to a field that is one too low carries correctly, also after
   // rounding up to the next power of two and for subnormals, whose hidden bit is absent.
   return static_cast<std::uint32_t>((static_cast<std::uint64_t>(place + 149) << 23) + rounded);
+}
+
+/// Bits of a word behind its binary point.
+inline constexpr int kLongWordFraction = 63;
+
+/// A float32 below 2^exponent in units of 2^(exponent - 63), cut towards zero.
+constexpr std::int64_t word_of_float(std::uint32_t bits, int exponent) {
+  const FloatParts z = float_parts(bits);
+  const int left = z.exponent + kLongWordFraction - exponent;
+  const std::int64_t magnitude = left >= 0    ? std::int64_t{z.mantissa} << left
+                                 : left > -24 ? z.mantissa >> -left
+                                              : 0;
+  return z.negative ? -magnitude : magnitude;
+}
+
+__extension__ using Int128 = __int128;
+
+/// The float32 nearest to such a word, or to the sum of two; 0 where that is negative.
+constexpr std::uint32_t float_of_word(Int128 word, int exponent) {
+  return word <= 0 ? 0 : float_bits(static_cast<std::uint64_t>(word), exponent - kLongWordFraction);
 }
 
 }  // namespace halfspace

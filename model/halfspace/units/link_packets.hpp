@@ -19,19 +19,24 @@ inline constexpr std::size_t kMostBeatQuads = 16;
 struct ScreenTrianglePacket {
   std::array<std::int32_t, 3> x{};
   std::array<std::int32_t, 3> y{};
-  std::array<std::uint32_t, 3> z{};
+  std::array<std::int64_t, 3> z{};
+  std::int64_t offset = 0;
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
     visit("x", &ScreenTrianglePacket::x, &Widths::CoordBits, Sign::kSigned);
     visit("y", &ScreenTrianglePacket::y, &Widths::CoordBits, Sign::kSigned);
-    visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kUnsigned);
+    visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kSigned);
+    visit("offset", &ScreenTrianglePacket::offset, &Widths::VertexDepthBits, Sign::kSigned);
   }
 };
 
 inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle) {
   const std::array<ScreenVertex, 3>& v = triangle.v;
-  return {.x = {v[0].x, v[1].x, v[2].x}, .y = {v[0].y, v[1].y, v[2].y}, .z = {v[0].z, v[1].z, v[2].z}};
+  return {.x = {v[0].x, v[1].x, v[2].x},
+          .y = {v[0].y, v[1].y, v[2].y},
+          .z = {v[0].z, v[1].z, v[2].z},
+          .offset = triangle.offset};
 }
 
 /// All that the units know of a draw.
@@ -46,6 +51,8 @@ struct DrawStatePacket {
   std::uint16_t y_first = 0;
   std::uint16_t y_last = 0;
   std::uint8_t format = 0;
+  std::uint32_t least_code = 0;  ///< no fragment's stored code is less
+  std::uint32_t most_code = 0;   ///< nor more
   std::uint8_t test = 0;
   std::uint8_t write = 0;
   std::uint8_t func = 0;
@@ -66,6 +73,8 @@ struct DrawStatePacket {
     visit("y_first", &P::y_first, &Widths::PixelBits, Sign::kUnsigned);
     visit("y_last", &P::y_last, &Widths::PixelBits, Sign::kUnsigned);
     visit("format", &P::format, &Widths::FormatBits, Sign::kUnsigned);
+    visit("least_code", &P::least_code, &Widths::CodeBits, Sign::kUnsigned);
+    visit("most_code", &P::most_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("test", &P::test, &Widths::FlagBits, Sign::kUnsigned);
     visit("write", &P::write, &Widths::FlagBits, Sign::kUnsigned);
     visit("func", &P::func, &Widths::FuncBits, Sign::kUnsigned);
@@ -83,7 +92,8 @@ inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits) {
                    .cull_back = draw.cull_back != 0,
                    .bottom_left_rule = draw.bottom_left_rule != 0,
                    .bounds = {},
-                   .depth_format = static_cast<DepthFormat>(draw.format)};
+                   .depth_format = static_cast<DepthFormat>(draw.format),
+                   .limits = {.least = draw.least_code, .most = draw.most_code}};
   if (draw.empty == 0) {
     state.bounds = {
         .x_first = draw.x_first, .y_first = draw.y_first, .x_last = draw.x_last, .y_last = draw.y_last};
@@ -150,11 +160,14 @@ inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const Walker
 struct DepthEquationPacket {
   std::array<std::int32_t, 2> a{};
   std::array<std::int32_t, 2> b{};
-  std::array<std::uint32_t, 3> z{};
+  std::array<std::int64_t, 3> z{};
   std::array<std::uint8_t, 3> bias{};
   std::int64_t area2 = 0;
   std::uint32_t reciprocal = 0;
   std::int8_t shift = 0;
+  std::uint8_t beyond = 0;
+  std::int16_t exponent = 0;
+  std::int64_t offset = 0;
   std::uint32_t min_code = 0;
   std::uint32_t max_code = 0;
 
@@ -163,11 +176,14 @@ struct DepthEquationPacket {
     using P = DepthEquationPacket;
     visit("a", &P::a, &Widths::StepBits, Sign::kSigned);
     visit("b", &P::b, &Widths::StepBits, Sign::kSigned);
-    visit("z", &P::z, &Widths::VertexDepthBits, Sign::kUnsigned);
+    visit("z", &P::z, &Widths::VertexDepthBits, Sign::kSigned);
     visit("bias", &P::bias, &Widths::FlagBits, Sign::kUnsigned);
     visit("area2", &P::area2, &Widths::EdgeBits, Sign::kSigned);
     visit("reciprocal", &P::reciprocal, &Widths::ReciprocalBits, Sign::kUnsigned);
     visit("shift", &P::shift, &Widths::ShiftBits, Sign::kSigned);
+    visit("beyond", &P::beyond, &Widths::FlagBits, Sign::kUnsigned);
+    visit("exponent", &P::exponent, &Widths::ExponentBits, Sign::kSigned);
+    visit("offset", &P::offset, &Widths::WordBits, Sign::kSigned);
     visit("min_code", &P::min_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("max_code", &P::max_code, &Widths::CodeBits, Sign::kUnsigned);
   }
@@ -184,6 +200,9 @@ inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat 
     packet.area2 = depth.area2;
     packet.reciprocal = depth.reciprocal;
     packet.shift = depth.shift;
+    packet.beyond = depth.beyond ? 1 : 0;
+    packet.exponent = depth.exponent;
+    packet.offset = depth.offset;
     packet.min_code = depth.min_code;
     packet.max_code = depth.max_code;
   }

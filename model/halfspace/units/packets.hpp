@@ -4,6 +4,7 @@
 /// package, the bit packing of the benches and the first-difference reports are all derived from that list.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -13,17 +14,39 @@ namespace halfspace {
 
 enum class Sign : std::uint8_t { kUnsigned, kSigned };
 
-/// A vertex as setup takes it. z is a fixed-point or float32 code, see numerics/depth.hpp.
+/// A vertex as setup takes it. z is a fixed-point number or the bits of a float32, see numerics/depth.hpp.
 struct ScreenVertex {
   std::int32_t x = 0;  ///< window coordinate in 1/2^SubPixelBits pixel, y down
   std::int32_t y = 0;
-  std::uint32_t z = 0;
+  std::int64_t z = 0;
 };
+
+/// Inclusive pixel rectangle; empty when a last is smaller than its first.
+struct PixelRect {
+  std::int32_t x_first = 0;
+  std::int32_t y_first = 0;
+  std::int32_t x_last = -1;
+  std::int32_t y_last = -1;
+  [[nodiscard]] bool empty() const { return x_last < x_first || y_last < y_first; }
+};
+
+constexpr PixelRect intersect(const PixelRect& l, const PixelRect& r) {
+  return {.x_first = std::max(l.x_first, r.x_first),
+          .y_first = std::max(l.y_first, r.y_first),
+          .x_last = std::min(l.x_last, r.x_last),
+          .y_last = std::min(l.y_last, r.y_last)};
+}
+
+/// Every pixel that a screen can have.
+inline constexpr PixelRect kWholeScreen{.x_last = (1 << Widths{}.PixelBits) - 1,
+                                        .y_last = (1 << Widths{}.PixelBits) - 1};
 
 /// front end -> setup: a triangle on the sub-pixel grid, in API vertex order.
 struct ScreenTriangle {
   std::array<ScreenVertex, 3> v;
-  std::uint32_t triangle = 0;  ///< index of the source triangle in its draw; clipping may repeat it
+  std::uint32_t triangle = 0;       ///< index of the source triangle in its draw; clipping may repeat it
+  std::int64_t offset = 0;          ///< added to the depth of each fragment; in the form of z
+  PixelRect within = kWholeScreen;  ///< the pixels that are drawn
 };
 
 /// One edge equation: inside is E >= 0, because the fill rule is folded into c.
@@ -43,31 +66,22 @@ struct PlaneEquation {
   std::int64_t z = 0;  ///< word at vertex 0
   std::int32_t x = 0;  ///< where vertex 0 is, in 1/2^SubPixelBits pixel
   std::int32_t y = 0;
-  std::int64_t low = 0;  ///< words of the nearest and the farthest vertex: no sample leaves them
-  std::int64_t high = 0;
-  std::int16_t exponent = 0;  ///< float32: 1.0 as a word is 2^exponent
 };
 
 /// What early_z needs to know of a triangle to interpolate depth; see units/depth_interpolator.hpp. Vertex i
 /// is opposite to edge i, so E_i / 2A is its weight.
 struct DepthEquation {
-  std::array<std::uint32_t, 3> z{};    ///< vertex depths
+  std::array<std::int64_t, 3> z{};     ///< vertex depths
   std::array<std::uint8_t, 3> bias{};  ///< 1 where the fill rule lowered c of the edge
+  bool beyond = false;                 ///< unorm: a vertex depth is outside [0, 1]
+  std::int16_t exponent = 0;           ///< 2^exponent is above every vertex depth and the offset
   std::int64_t area2 = 0;              ///< 2A, the sum of the three unbiased E
-  std::uint32_t min_code = 0;  ///< stored codes of the nearest and the farthest vertex: no sample leaves them
+  std::int64_t offset = 0;     ///< unorm: as in ScreenTriangle; float32: a word, see units/depth_plane.hpp
+  std::uint32_t min_code = 0;  ///< the range of the triangle's stored codes
   std::uint32_t max_code = 0;
   std::uint32_t reciprocal = 0;  ///< barycentric: (2^63 - 1) / (2A scaled to 32 bits)
   std::int8_t shift = 0;         ///< barycentric: E >> shift is on the scale of the 32-bit 2A
   PlaneEquation plane;           ///< plane
-};
-
-/// Inclusive pixel rectangle; empty when a last is smaller than its first.
-struct PixelRect {
-  std::int32_t x_first = 0;
-  std::int32_t y_first = 0;
-  std::int32_t x_last = -1;
-  std::int32_t y_last = -1;
-  [[nodiscard]] bool empty() const { return x_last < x_first || y_last < y_first; }
 };
 
 /// setup -> tile_walker.

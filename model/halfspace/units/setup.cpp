@@ -23,7 +23,14 @@ void rotate_to_first(std::array<ScreenVertex, 3>& v) {
   std::rotate(v.begin(), std::min_element(v.begin(), v.end(), above), v.end());
 }
 
-/// The pixels whose centres lie in the closed bounding box of the triangle.
+/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge
+/// has a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
+bool owns_its_samples(const Edge& edge, bool bottom_left_rule) {
+  return edge.a > 0 || (edge.a == 0 && (bottom_left_rule ? edge.b < 0 : edge.b > 0));
+}
+
+}  // namespace
+
 PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits) {
   const auto [x_min, x_max] = std::minmax({v[0].x, v[1].x, v[2].x});
   const auto [y_min, y_max] = std::minmax({v[0].y, v[1].y, v[2].y});
@@ -34,21 +41,6 @@ PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits
           .x_last = (x_max - half) >> sub_pixel_bits,
           .y_last = (y_max - half) >> sub_pixel_bits};
 }
-
-PixelRect intersect(const PixelRect& l, const PixelRect& r) {
-  return {.x_first = std::max(l.x_first, r.x_first),
-          .y_first = std::max(l.y_first, r.y_first),
-          .x_last = std::min(l.x_last, r.x_last),
-          .y_last = std::min(l.y_last, r.y_last)};
-}
-
-/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge
-/// has a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
-bool owns_its_samples(const Edge& edge, bool bottom_left_rule) {
-  return edge.a > 0 || (edge.a == 0 && (bottom_left_rule ? edge.b < 0 : edge.b > 0));
-}
-
-}  // namespace
 
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out) {
   std::array<ScreenVertex, 3> v = in.v;
@@ -64,7 +56,7 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   if (box.empty()) {
     return SetupVerdict::kNoSample;
   }
-  out.bounds = intersect(box, state.bounds);
+  out.bounds = intersect(box, intersect(state.bounds, in.within));
   if (out.bounds.empty()) {
     return SetupVerdict::kOutside;
   }
@@ -88,7 +80,8 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   }
   out.triangle = in.triangle;
   if (state.depth_format != DepthFormat::kNone) {
-    make_depth_equation(v, out.edge, area2, state.depth_format, state.interpolator, out.depth);
+    make_depth_equation(v, in.offset, out.edge, area2, state.depth_format, state.limits, state.interpolator,
+                        out.depth);
   }
   return SetupVerdict::kDrawn;
 }

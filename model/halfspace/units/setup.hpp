@@ -21,6 +21,7 @@ struct SetupState {
   bool bottom_left_rule = false;
   PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
+  DepthLimits limits{};
   DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
 };
 
@@ -31,6 +32,9 @@ enum class SetupVerdict : std::uint8_t {
   kNoSample,  ///< its bounding box holds no pixel centre
   kOutside,   ///< its bounding box misses scissor, viewport or target
 };
+
+/// The pixels whose centres lie in the closed bounding box of the triangle.
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits);
 
 /// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
 /// bits). Neither the order of the vertices nor which one comes first changes what is drawn or its depth.

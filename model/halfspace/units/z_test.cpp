@@ -1,5 +1,7 @@
 #include "halfspace/units/z_test.hpp"
 
+#include <algorithm>
+
 #include "halfspace/units/depth_barycentric.hpp"
 #include "halfspace/units/depth_plane.hpp"
 
@@ -16,34 +18,63 @@ void for_each_sample(const TileMask& mask, Visit&& visit) {
   }
 }
 
+/// The plane in words of a size; code(word) is the stored code, not yet clamped.
 template <int TileSize, class Word, class Code>
-void interpolate_plane(const PlaneEquation& plane, const Coverage& coverage, int sub_pixel_bits,
+void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, int sub_pixel_bits,
                        TileCodes<TileSize>& codes, Code&& code) {
   const TilePlane<Word> tile =
-      tile_plane<Word>(plane, coverage.tile_x * TileSize, coverage.tile_y * TileSize, sub_pixel_bits);
+      tile_plane<Word>(eq.plane, coverage.tile_x * TileSize, coverage.tile_y * TileSize, sub_pixel_bits);
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
     const auto at = static_cast<std::uint32_t>(bit);
-    codes[at] = code(plane_word(plane, tile, at % TileSize, at / TileSize));
+    const std::int64_t stored = code(tile.at(at % TileSize, at / TileSize));
+    codes[at] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(stored, eq.min_code, eq.max_code));
   });
 }
 
 template <int TileSize>
-void interpolate_barycentric(const SetupTriangle& triangle, const Coverage& coverage, DepthFormat format,
-                             int sub_pixel_bits, TileCodes<TileSize>& codes) {
+void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, const EarlyZState& state,
+                       TileCodes<TileSize>& codes) {
+  const auto interpolate = [&]<class Word>(Word, auto&& code) {
+    interpolate_plane<TileSize, Word>(eq, coverage, state.sub_pixel_bits, codes, code);
+  };
+  if (state.format == DepthFormat::kFloat32) {
+    interpolate(LongWord{}, [&](std::int64_t word) {
+      return std::int64_t{float_of_word(Int128{word} + eq.offset, eq.exponent)};
+    });
+    return;
+  }
+  int fraction = vertex_depth_fraction(state.format);
+  if (!eq.beyond) {
+    const std::int64_t offset = eq.offset + (std::int64_t{1} << (fraction - 1));
+    interpolate(ShortWord{}, [&](std::int32_t word) { return (word + offset) >> fraction; });
+    return;
+  }
+  fraction += kLongWordFraction - kVertexDepthBits - eq.exponent;
+  const Int128 offset = Int128{word_of_unorm(eq.offset, eq.exponent)} + (Int128{1} << (fraction - 1));
+  interpolate(LongWord{},
+              [&](std::int64_t word) { return static_cast<std::int64_t>((word + offset) >> fraction); });
+}
+
+template <int TileSize>
+void interpolate_barycentric(const SetupTriangle& triangle, const Coverage& coverage,
+                             const EarlyZState& state, TileCodes<TileSize>& codes) {
   const DepthEquation& eq = triangle.depth;
   const auto weight_edge = [&](std::size_t i, int bit) {
     const Edge& edge = triangle.edge[i];
     const std::int64_t steps =
         std::int64_t{edge.a} * (bit % TileSize) + std::int64_t{edge.b} * (bit / TileSize);
-    return coverage.e[i - 1] + eq.bias[i] + (steps << sub_pixel_bits);
+    return coverage.e[i - 1] + eq.bias[i] + (steps << state.sub_pixel_bits);
   };
-  const int fraction = vertex_depth_fraction(format);
-  const bool is_float = format == DepthFormat::kFloat32;
+  const bool is_float = state.format == DepthFormat::kFloat32;
+  const int fraction = vertex_depth_fraction(state.format);
+  const std::int64_t offset = eq.offset + (std::int64_t{1} << (fraction - 1));
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
     const std::int64_t e1 = weight_edge(1, bit);
     const std::int64_t e2 = weight_edge(2, bit);
+    const std::int64_t stored = is_float ? std::int64_t{barycentric_float(eq, e1, e2)}
+                                         : (barycentric_unorm(eq, e1, e2) + offset) >> fraction;
     codes[static_cast<std::size_t>(bit)] =
-        is_float ? barycentric_float(eq, e1, e2) : barycentric_unorm(eq, fraction, e1, e2);
+        static_cast<std::uint32_t>(std::clamp<std::int64_t>(stored, eq.min_code, eq.max_code));
   });
 }
 
@@ -52,19 +83,13 @@ void interpolate_barycentric(const SetupTriangle& triangle, const Coverage& cove
 template <int TileSize>
 void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
                       TileCodes<TileSize>& codes) {
-  const Coverage& coverage = burst.coverage;
-  const PlaneEquation& plane = triangle.depth.plane;
-  if (state.interpolator == DepthInterpolator::kBarycentric) {
-    interpolate_barycentric<TileSize>(triangle, coverage, state.format, state.sub_pixel_bits, codes);
-  } else if (state.format == DepthFormat::kFloat32) {
-    interpolate_plane<TileSize, std::uint64_t>(
-        plane, coverage, state.sub_pixel_bits, codes,
-        [&](std::uint64_t word) { return float_of_word(word, plane); });
+  const DepthEquation& eq = triangle.depth;
+  if (eq.min_code == eq.max_code) {
+    codes.fill(eq.min_code);
+  } else if (state.interpolator == DepthInterpolator::kPlane) {
+    interpolate_plane<TileSize>(eq, burst.coverage, state, codes);
   } else {
-    const int fraction = vertex_depth_fraction(state.format);
-    interpolate_plane<TileSize, std::uint32_t>(
-        plane, coverage, state.sub_pixel_bits, codes,
-        [&](std::uint32_t word) { return unorm_of_word(word, fraction); });
+    interpolate_barycentric<TileSize>(triangle, burst.coverage, state, codes);
   }
 }
 

@@ -209,12 +209,13 @@ class RecurrenceCore {
     const Misses misses = work.misses;
     const T filled_next = misses.empty() ? T{} : resolve(misses, f, moved);
     const T slots = misses.empty() ? T{} : write_slots(misses);
-    const T b = later(later(later(f + kLookupLatency, b_next_), later(filled_next, slots)),
+    const T b = later(later(later(f + machine_.lookup_latency, b_next_), later(filled_next, slots)),
                       fifo(Fifo::kEarlyZ).usable());
     const T beats = machine_.test_beats[static_cast<std::size_t>(work.quads)];
     if constexpr (Probe::kLooks) {
       probe_.link(Link::kEarlyZPending, f, b + beats);
-      probe_.template split<4>(Stage::kZTest, b_next_, {f + kLookupLatency, filled_next, slots, b}, beats);
+      probe_.template split<4>(Stage::kZTest, b_next_, {f + machine_.lookup_latency, filled_next, slots, b},
+                               beats);
       probe_.note(&PacketTimes::b, b);
     }
     b_next_ = b + beats;

@@ -41,6 +41,7 @@ struct Machine {
   T setup_interval;
   T step_interval;
   T edge_latency;
+  T lookup_latency;  ///< from the lookup to the test
   T memory_latency;
 };
 
@@ -59,6 +60,7 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   m.setup_interval = static_cast<std::uint64_t>(config.setup.interval);
   m.step_interval = static_cast<std::uint64_t>(config.tile_walker.step_interval);
   m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
+  m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
   return m;
 }

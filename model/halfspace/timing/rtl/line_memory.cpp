@@ -32,7 +32,7 @@ LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surface
     const std::uint32_t count = places[i].tiles * static_cast<std::uint32_t>(parts_);
     const std::size_t sample = places[i].line_bytes / samples_;
     const std::uint32_t code =
-        clear_code(surfaces[i].format, 1);  // without a clear a surface starts at depth 1
+        largest_code(surfaces[i].format);  // without a clear a surface starts at depth 1
     for (std::uint32_t line = first; line < first + count; ++line) {
       for (std::uint32_t s = 0; s < samples_; ++s) {
         std::memcpy(&bytes(line)[s * sample], &code, sample);

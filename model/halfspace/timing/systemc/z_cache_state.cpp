@@ -28,7 +28,7 @@ void ZCacheState::begin_frame() {
   std::vector<std::uint8_t> bytes;
   for (std::uint32_t line = 0; line < memory_line_count; ++line) {
     const DepthLayout& layout = memory.layout;
-    const std::uint32_t code = halfspace::clear_code(run.result.surfaces[layout.surface(line)].format, 1);
+    const std::uint32_t code = largest_code(run.result.surfaces[layout.surface(line)].format);
     layout.pack(line, std::vector<std::uint32_t>(layout.samples(line), code), bytes);
     memory.access_in_no_time(tlm::TLM_WRITE_COMMAND, line, bytes);
   }

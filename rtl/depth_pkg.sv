@@ -1,0 +1,62 @@
+// Numbers of depth that setup and the interpolators share: float32 as fixed-point words and back, bit for bit those of
+// model/halfspace/units/float_parts.hpp.
+
+package depth_pkg;
+
+  import raster_pkg::*;
+
+  // The power of two of a number's last bit, signed; holds every sum of exponents of covered samples.
+  parameter int unsigned PlaceBits = 11;
+
+  typedef logic signed [PlaceBits-1:0] place_t;
+
+  // A number shifted left by `zeros` until its top bit is at bit 63; by 63 for 0.
+  typedef struct packed {
+    logic [5:0]          zeros;
+    logic [WordBits-1:0] value;
+  } normalized_t;
+
+  function automatic normalized_t normalize(logic [WordBits-1:0] value);
+    normalized_t result;
+    result.value = value;
+    result.zeros = '0;
+    for (int unsigned level = 6; level > 0; level--) begin
+      if (result.value >> (WordBits - (1 << (level - 1))) == '0) begin
+        result.zeros |= 6'(1 << (level - 1));
+        result.value <<= 1 << (level - 1);
+      end
+    end
+    return result;
+  endfunction
+
+  // Exponent fields of subnormal numbers are 0, their exponents those of 1.
+  function automatic logic [7:0] exponent_of(logic [7:0] field);
+    return field == '0 ? 8'd1 : field;
+  endfunction
+
+  // A float32 below 2^exponent as a word where that is 1, cut towards zero.
+  function automatic word_t word_of_float(logic [CodeBits-1:0] bits, exponent_t exponent);
+    logic [9:0] down;
+    word_t      magnitude;
+    down      = 10'(exponent) + 10'd126 - 10'(exponent_of(bits[30:23]));
+    magnitude = {1'b0, |bits[30:23], bits[22:0], 39'b0};
+    magnitude = down > 10'd62 ? '0 : magnitude >> down[5:0];
+    return bits[31] ? -magnitude : magnitude;
+  endfunction
+
+  // The float32 nearest to a number whose last bit is 2^place, halves upwards; bit 63 is set, or all are 0.
+  function automatic logic [CodeBits-1:0] nearest_float(logic [WordBits-1:0] value, place_t place);
+    localparam place_t Normal = place_t'(WordBits - 24);
+    place_t              subnormal, cut;
+    logic [5:0]          shift;
+    logic [CodeBits-1:0] rounded;
+    logic [8:0]          field;
+    subnormal = place_t'(-149) - place;
+    cut       = Normal > subnormal ? Normal : subnormal;
+    shift     = 6'(cut - place_t'(1));
+    rounded   = CodeBits'(((value >> shift) + WordBits'(1)) >> 1);
+    field     = 9'(place + cut + place_t'(149));
+    return value == '0 || cut > place_t'(WordBits) ? '0 : {field, 23'b0} + rounded;
+  endfunction
+
+endpackage : depth_pkg

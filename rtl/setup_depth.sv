@@ -1,0 +1,316 @@
+// What the depths of a triangle are together: the range of its stored codes, the power of two above them all, and its
+// polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
+//
+// Five registers, one triangle a cycle: the extremes; both and the offset as words; sums with the offset; normalized;
+// codes.
+
+module setup_depth
+  import raster_pkg::*;
+  import depth_pkg::*;
+(
+  input  logic                  clk_i,
+  input  logic                  rst_ni,
+
+  input  logic                  valid_i,
+  input  vertex_depth_t [2:0]   z_i,
+  input  vertex_depth_t         offset_i,
+  input  logic [FormatBits-1:0] format_i,
+  input  logic [CodeBits-1:0]   least_code_i,
+  input  logic [CodeBits-1:0]   most_code_i,
+
+  // Five cycles later; 0 where there is no depth surface.
+  output logic                  valid_o,
+  output logic                  beyond_o,
+  output exponent_t             exponent_o,
+  output word_t                 offset_o,
+  output logic [CodeBits-1:0]   min_code_o,
+  output logic [CodeBits-1:0]   max_code_o
+);
+
+  localparam logic [FormatBits-1:0] Unorm16 = 1;
+  localparam logic [FormatBits-1:0] Float32 = 4;
+  localparam int unsigned UnitBits = 31; // bits of a unorm vertex depth below 1
+
+  // What goes all the way.
+  typedef struct packed {
+    logic                has_depth;
+    logic                is_float;
+    logic                is_unorm16;
+    logic [CodeBits-1:0] least_code;
+    logic [CodeBits-1:0] most_code;
+  } draw_t;
+
+  // First register: the least and the greatest depth.
+  typedef struct packed {
+    draw_t         draw;
+    vertex_depth_t z_min;
+    vertex_depth_t z_max;
+    vertex_depth_t offset;
+    logic [7:0]    field; // the largest exponent field
+  } extremes_t;
+
+  extremes_t extremes_d, extremes_q;
+  logic      extremes_valid;
+
+  // Orders depths: float32 are a sign and a magnitude.
+  function automatic vertex_depth_t order(vertex_depth_t z, logic is_float);
+    vertex_depth_t magnitude;
+    magnitude = vertex_depth_t'({1'b0, z[30:0]});
+    return !is_float ? z : z[31] ? -magnitude : magnitude;
+  endfunction
+
+  logic is_float;
+  assign is_float = format_i == Float32;
+
+  always_comb begin
+    extremes_d.draw = '{
+      has_depth:  format_i != '0,
+      is_float:   is_float,
+      is_unorm16: format_i == Unorm16,
+      least_code: least_code_i,
+      most_code:  most_code_i
+    };
+    extremes_d.z_min  = z_i[0];
+    extremes_d.z_max  = z_i[0];
+    extremes_d.offset = offset_i;
+    extremes_d.field  = exponent_of(offset_i[30:23]);
+    for (int unsigned i = 1; i < 3; i++) begin
+      if (order(z_i[i], is_float) < order(extremes_d.z_min, is_float)) begin
+        extremes_d.z_min = z_i[i];
+      end
+      if (order(z_i[i], is_float) > order(extremes_d.z_max, is_float)) begin
+        extremes_d.z_max = z_i[i];
+      end
+    end
+    for (int unsigned i = 0; i < 3; i++) begin
+      if (exponent_of(z_i[i][30:23]) > extremes_d.field) begin
+        extremes_d.field = exponent_of(z_i[i][30:23]);
+      end
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(extremes_t))
+  ) u_extremes (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (valid_i),
+    .data_i  (extremes_d),
+    .valid_o (extremes_valid),
+    .data_o  (extremes_q)
+  );
+
+  // Second register: as words. On unorm surfaces they are the depths as they are.
+  typedef struct packed {
+    draw_t               draw;
+    word_t               z_min;
+    word_t               z_max;
+    word_t               offset;
+    logic [CodeBits-1:0] min_code; // float32 without an offset: a word may have to cut the depth
+    logic [CodeBits-1:0] max_code;
+    logic                beyond;
+    exponent_t           exponent;
+  } words_t;
+
+  words_t words_d, words_q;
+  logic   words_valid;
+
+  function automatic logic [VertexDepthBits-1:0] magnitude_of(vertex_depth_t z);
+    return z[VertexDepthBits-1] ? -z : z;
+  endfunction
+
+  always_comb begin
+    automatic logic [VertexDepthBits-1:0] magnitude;
+    automatic exponent_t exponent;
+    magnitude = magnitude_of(extremes_q.z_min) | magnitude_of(extremes_q.z_max)
+                | magnitude_of(extremes_q.offset);
+    exponent  = '0;
+    for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
+      if (magnitude[i]) begin
+        exponent = exponent_t'(i + 1 - UnitBits);
+      end
+    end
+    words_d = '{
+      draw:     extremes_q.draw,
+      z_min:    word_t'(extremes_q.z_min),
+      z_max:    word_t'(extremes_q.z_max),
+      offset:   word_t'(extremes_q.offset),
+      min_code: extremes_q.z_min[31] ? '0 : extremes_q.z_min[CodeBits-1:0],
+      max_code: extremes_q.z_max[31] ? '0 : extremes_q.z_max[CodeBits-1:0],
+      beyond:   extremes_q.z_min[VertexDepthBits-1] || extremes_q.z_max >>> UnitBits != '0,
+      exponent: exponent
+    };
+    if (extremes_q.draw.is_float) begin
+      words_d.beyond   = 1'b0;
+      words_d.exponent = exponent_t'({1'b0, extremes_q.field}) - exponent_t'(126);
+      words_d.z_min    = word_of_float(extremes_q.z_min[CodeBits-1:0], words_d.exponent);
+      words_d.z_max    = word_of_float(extremes_q.z_max[CodeBits-1:0], words_d.exponent);
+      words_d.offset   = word_of_float(extremes_q.offset[CodeBits-1:0], words_d.exponent);
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(words_t))
+  ) u_words (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (extremes_valid),
+    .data_i  (words_d),
+    .valid_o (words_valid),
+    .data_o  (words_q)
+  );
+
+  // Third register: with the offset. What is negative is 0; unorm sums are far below the word's range.
+  typedef struct packed {
+    draw_t               draw;
+    logic [WordBits-1:0] low;
+    logic [WordBits-1:0] high;
+    logic                moved; // not by an offset: the codes stand as they are
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+    word_t               offset;
+    logic                beyond;
+    exponent_t           exponent;
+  } sums_t;
+
+  sums_t sums_d, sums_q;
+  logic  sums_valid;
+
+  function automatic logic [WordBits-1:0] sum_of(word_t z, word_t offset);
+    logic signed [WordBits:0] sum;
+    sum = (WordBits + 1)'(z) + (WordBits + 1)'(offset);
+    return sum[WordBits] ? '0 : sum[WordBits-1:0];
+  endfunction
+
+  assign sums_d = '{
+    draw:     words_q.draw,
+    low:      sum_of(words_q.z_min, words_q.offset),
+    high:     sum_of(words_q.z_max, words_q.offset),
+    moved:    !words_q.draw.is_float || words_q.offset != '0,
+    min_code: words_q.min_code,
+    max_code: words_q.max_code,
+    offset:   words_q.offset,
+    beyond:   words_q.beyond,
+    exponent: words_q.exponent
+  };
+
+  pipe_register #(
+    .Width ($bits(sums_t))
+  ) u_sums (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (words_valid),
+    .data_i  (sums_d),
+    .valid_o (sums_valid),
+    .data_o  (sums_q)
+  );
+
+  // Fourth register: float32 sums with their top bit at bit 63; unorm codes, which a large sum is beyond.
+  typedef struct packed {
+    draw_t               draw;
+    normalized_t         low;
+    normalized_t         high;
+    logic                moved;
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+    word_t               offset;
+    logic                beyond;
+    exponent_t           exponent;
+  } codes_t;
+
+  codes_t codes_d, codes_q;
+
+  function automatic logic [CodeBits-1:0] unorm_code(logic [WordBits-1:0] sum, logic unorm16);
+    logic [WordBits-1:0] code;
+    code = unorm16 ? (sum + WordBits'(1 << 14)) >> 15 : (sum + WordBits'(1 << 6)) >> 7;
+    return code >> CodeBits != '0 ? '1 : code[CodeBits-1:0];
+  endfunction
+
+  always_comb begin
+    codes_d = '{
+      draw:     sums_q.draw,
+      low:      normalize(sums_q.low),
+      high:     normalize(sums_q.high),
+      moved:    sums_q.moved,
+      min_code: sums_q.min_code,
+      max_code: sums_q.max_code,
+      offset:   sums_q.offset,
+      beyond:   sums_q.beyond,
+      exponent: sums_q.exponent
+    };
+    if (!sums_q.draw.is_float) begin
+      codes_d.min_code = unorm_code(sums_q.low, sums_q.draw.is_unorm16);
+      codes_d.max_code = unorm_code(sums_q.high, sums_q.draw.is_unorm16);
+    end
+  end
+
+  logic codes_valid;
+
+  pipe_register #(
+    .Width ($bits(codes_t))
+  ) u_codes (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (sums_valid),
+    .data_i  (codes_d),
+    .valid_o (codes_valid),
+    .data_o  (codes_q)
+  );
+
+  // Fifth register: float32 codes, and both kept within the limits.
+  typedef struct packed {
+    logic                beyond;
+    exponent_t           exponent;
+    word_t               offset;
+    logic [CodeBits-1:0] min_code;
+    logic [CodeBits-1:0] max_code;
+  } range_t;
+
+  range_t range_d, range_q;
+
+  function automatic logic [CodeBits-1:0] limited(logic [CodeBits-1:0] code,
+                                                  logic [CodeBits-1:0] least,
+                                                  logic [CodeBits-1:0] most);
+    return code < least ? least : code > most ? most : code;
+  endfunction
+
+  function automatic logic [CodeBits-1:0] float_code(normalized_t sum, exponent_t exponent);
+    return nearest_float(sum.value, place_t'(exponent) - place_t'(63)
+                                    - place_t'($signed({1'b0, sum.zeros})));
+  endfunction
+
+  always_comb begin
+    automatic logic from_sum;
+    from_sum = codes_q.draw.is_float && codes_q.moved;
+    range_d  = '0;
+    if (codes_q.draw.has_depth) begin
+      range_d.beyond   = codes_q.beyond;
+      range_d.exponent = codes_q.exponent;
+      range_d.offset   = codes_q.offset;
+      range_d.min_code = limited(
+          from_sum ? float_code(codes_q.low, codes_q.exponent) : codes_q.min_code,
+          codes_q.draw.least_code, codes_q.draw.most_code);
+      range_d.max_code = limited(
+          from_sum ? float_code(codes_q.high, codes_q.exponent) : codes_q.max_code,
+          codes_q.draw.least_code, codes_q.draw.most_code);
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(range_t))
+  ) u_range (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (codes_valid),
+    .data_i  (range_d),
+    .valid_o (valid_o),
+    .data_o  (range_q)
+  );
+
+  assign beyond_o   = range_q.beyond;
+  assign exponent_o = range_q.exponent;
+  assign offset_o   = range_q.offset;
+  assign min_code_o = range_q.min_code;
+  assign max_code_o = range_q.max_code;
+
+endmodule
