@@ -5,6 +5,17 @@ package depth_pkg;
 
   import raster_pkg::*;
 
+  // What the parameter Interpolator chooses.
+  parameter int unsigned Plane = 0;
+  parameter int unsigned Barycentric = 1;
+
+  // A gradient of the plane: a word and below it bits that an origin of a tile needs.
+  parameter int unsigned GradientFraction = 22;
+  parameter int unsigned GradientBits = 2 * HalfGradientBits;
+  // Of a short word: a unorm depth in [0, 1].
+  parameter int unsigned ShortBits = 32;
+  parameter int unsigned ShortGradientBits = ShortBits + GradientFraction;
+
   // The power of two of a number's last bit, signed; holds every sum of exponents of covered samples.
   parameter int unsigned PlaceBits = 11;
 

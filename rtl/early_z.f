@@ -2,7 +2,10 @@ raster_pkg.sv
 depth_pkg.sv
 credit_fifo.sv
 sync_ram.sv
-depth_sample.sv
+barycentric_sample.sv
+depth_barycentric.sv
+plane_sample.sv
+depth_plane.sv
 depth_interpolator.sv
 z_bank.sv
 z_clear_flags.sv

@@ -10,11 +10,14 @@
 
 module early_z
   import raster_pkg::*;
+  import depth_pkg::*;
 #(
   /// Bursts between the lookup and the end of their test, 2 or more.
   parameter int unsigned PendingDepth = 32,
   /// Bursts in the output FIFO, 2 or more: a tile's worth of beats each.
   parameter int unsigned FifoDepth = 16,
+  /// Interpolator of depth, 0 plane or 1 barycentric.
+  parameter int unsigned Interpolator = Plane,
   /// Cycles to interpolate depth, 9 or more.
   parameter int unsigned InterpolatorLatency = 9,
   /// Lines of the z cache, a power of two, at least ZParts * Ways.
@@ -399,13 +402,16 @@ module early_z
   logic   coded_valid, coded_taken, unused_codes_empty;
 
   depth_interpolator #(
-    .Quads   (TestWidth),
-    .Latency (InterpolatorLatency)
+    .Quads        (TestWidth),
+    .Interpolator (Interpolator),
+    .Latency      (InterpolatorLatency)
   ) u_interpolator (
     .clk_i      (clk_i),
     .valid_i    (valid_q[0]),
     .format_i   (triangle.format),
     .equation_i (triangle.equation),
+    .tile_x_i   (issued_q.tile_x),
+    .tile_y_i   (issued_q.tile_y),
     .e_i        (issued_e_q),
     .index_i    (issued_q.index),
     .mask_i     (issued_q.mask),

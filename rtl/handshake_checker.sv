@@ -16,8 +16,17 @@ module handshake_checker #(
       valid_i && !ready_i |=> valid_i)
   else $error("valid withdrawn before ready");
 
-  PayloadStays: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      valid_i && !ready_i |=> $stable(payload_i))
-  else $error("payload changed while stalled");
+  // As statements: Verilator 5.006 makes no C++ that compiles of a concurrent assertion on more than 1280 bits.
+  logic             stalled_q;
+  logic [Width-1:0] payload_q;
+
+  always_ff @(posedge clk_i) begin
+    stalled_q <= rst_ni & valid_i & ~ready_i;
+    payload_q <= payload_i;
+    if (rst_ni && stalled_q) begin
+      PayloadStays: assert (payload_i == payload_q)
+      else $error("payload changed while stalled");
+    end
+  end
 
 endmodule

@@ -10,7 +10,7 @@ module raster_pipeline
   // Names in the configuration file and what each costs: docs/units/raster_pipeline.md.
   parameter int unsigned SetupQueue = 8,
   parameter int unsigned SetupInterval = 1,
-  parameter int unsigned SetupFifo = 24,
+  parameter int unsigned SetupFifo = 40,
   parameter int unsigned BlockSize = 32,
   parameter bit          BlockLevel = 1'b1,
   parameter bit          TrivialReject = 1'b1,
@@ -22,6 +22,7 @@ module raster_pipeline
   parameter int unsigned QuadFifo = 4,
   parameter int unsigned PendingDepth = 32,
   parameter int unsigned EarlyZFifo = 16,
+  parameter int unsigned Interpolator = 0,
   parameter int unsigned InterpolatorLatency = 9,
   parameter int unsigned Lines = 128,
   parameter int unsigned Ways = 4,
@@ -96,11 +97,12 @@ module raster_pipeline
   draw_state_t     state;
 
   setup #(
-    .QueueDepth (SetupQueue),
-    .FifoDepth  (SetupFifo),
-    .Interval   (SetupInterval),
-    .BlockSize  (BlockSize),
-    .BlockLevel (BlockLevel)
+    .QueueDepth   (SetupQueue),
+    .FifoDepth    (SetupFifo),
+    .Interval     (SetupInterval),
+    .BlockSize    (BlockSize),
+    .BlockLevel   (BlockLevel),
+    .Interpolator (Interpolator)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -193,6 +195,7 @@ module raster_pipeline
   early_z #(
     .PendingDepth        (PendingDepth),
     .FifoDepth           (EarlyZFifo),
+    .Interpolator        (Interpolator),
     .InterpolatorLatency (InterpolatorLatency),
     .Lines               (Lines),
     .Ways                (Ways),

@@ -61,6 +61,8 @@ package raster_pkg;
   parameter int unsigned VertexDepthBits = 48;
   // depth with the binary point behind the sign, on a scale of the triangle
   parameter int unsigned WordBits = 64;
+  // half of a gradient of depth: a word and 22 bits below it, together 86
+  parameter int unsigned HalfGradientBits = 43;
   // power of two above all depths of a triangle, signed
   parameter int unsigned ExponentBits = 9;
   // a stored depth code of any format
@@ -89,8 +91,8 @@ package raster_pkg;
   typedef logic signed [EdgeBits-1:0] edge_t;
   typedef logic signed [StepBits-1:0] step_t;
   typedef logic signed [ShiftBits-1:0] shift_t;
-  typedef logic signed [ExponentBits-1:0] exponent_t;
   typedef logic signed [WordBits-1:0] word_t;
+  typedef logic signed [ExponentBits-1:0] exponent_t;
 
   // front end -> setup: on the sub-pixel grid
   typedef struct packed {
@@ -142,6 +144,11 @@ package raster_pkg;
     edge_t area2;
     logic [ReciprocalBits-1:0] reciprocal;
     shift_t shift;
+    logic [1:0] [HalfGradientBits-1:0] dx;
+    logic [1:0] [HalfGradientBits-1:0] dy;
+    word_t word;
+    coord_t x;
+    coord_t y;
     logic [FlagBits-1:0] beyond;
     exponent_t exponent;
     word_t offset;

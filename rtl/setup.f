@@ -8,4 +8,6 @@ setup_edges.sv
 setup_depth.sv
 reciprocal_stage.sv
 reciprocal.sv
+quotient_digits.sv
+setup_plane.sv
 setup.sv

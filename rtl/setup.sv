@@ -8,19 +8,22 @@
 module setup
   import raster_pkg::*;
   import setup_pkg::*;
+  import depth_pkg::*;
 #(
   /// Triangles in the cull stage and its queue, 2 or more, each as wide as verdict_t. With fewer than 5 the stage
   /// cannot take a triangle in every cycle.
   parameter int unsigned QueueDepth = 8,
-  /// Slots of the output FIFO, 2 or more, each as wide as the three packets together. With fewer than 19 / Interval
-  /// drawn triangles are further apart than Interval.
-  parameter int unsigned FifoDepth = 24,
+  /// Slots of the output FIFO, 2 or more, each as wide as the three packets together. With fewer than 33 / Interval
+  /// (plane) or 19 / Interval (barycentric) drawn triangles are further apart than Interval.
+  parameter int unsigned FifoDepth = 40,
   /// Cycles from one drawn triangle to the next: 1, 2, 4, 8 or 16. The divider has 16 / Interval stages.
   parameter int unsigned Interval = 1,
   /// Pixels on a side of a block of tile_walker, 8, 16, 32 or 64, more than TileSize.
   parameter int unsigned BlockSize = 32,
   /// Whether tile_walker decides blocks: a walk whose bounds do not fit one tile then starts at a block.
-  parameter bit BlockLevel = 1'b1
+  parameter bit BlockLevel = 1'b1,
+  /// Interpolator of depth, 0 plane or 1 barycentric: which equation is made.
+  parameter int unsigned Interpolator = Plane
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -104,12 +107,14 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 3, 5 and 17 cycles later. The last has the credits, and is valid last; the
-  // others are taken with it.
+  // The parts of a slot: at the decision, 3 and 5 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
+  // later. The last has the credits; the others are taken with it.
   typedef struct packed {
     vertex_depth_t [2:0] z;
     area_t               area2;
     shift_t              shift;
+    coord_t              x;
+    coord_t              y;
     bounds_t             bounds;
     draw_state_t         state;
   } known_t;
@@ -122,6 +127,7 @@ module setup
   } edges_t;
 
   typedef struct packed {
+    word_t               word;
     logic                beyond;
     exponent_t           exponent;
     word_t               offset;
@@ -129,17 +135,33 @@ module setup
     logic [CodeBits-1:0] max_code;
   } depth_t;
 
+  typedef struct packed {
+    logic [ReciprocalBits-1:0]          reciprocal;
+    logic [1:0] [HalfGradientBits-1:0]  dx;
+    logic [1:0] [HalfGradientBits-1:0]  dy;
+  } divided_t;
+
   known_t known_d, known;
   edges_t edges_d, edges;
   depth_t depth_d, depth;
   shift_t shift;
-  logic   edges_valid, depth_valid, reciprocal_valid, reciprocal_kept, leave;
+  word_t [2:0] words;
+  logic   edges_valid, depth_valid, is_short;
+  logic   reciprocal_valid, reciprocal_kept, divided_valid, leave;
   logic [ReciprocalBits-1:0] quotient;
+  divided_t divided_d, divided;
+
+  // What only the other equation has stays 0.
+  logic with_weights, with_plane;
+  assign with_weights = has_depth & (Interpolator == Barycentric);
+  assign with_plane   = has_depth & (Interpolator == Plane);
 
   always_comb begin
-    known_d.z      = has_depth ? verdict.triangle.z : '0;
-    known_d.area2  = has_depth ? verdict.area2 : '0;
-    known_d.shift  = has_depth ? shift : '0;
+    known_d.z      = with_weights ? verdict.triangle.z : '0;
+    known_d.area2  = with_weights ? verdict.area2 : '0;
+    known_d.shift  = with_weights ? shift : '0;
+    known_d.x      = with_plane ? verdict.triangle.x[0] : '0;
+    known_d.y      = with_plane ? verdict.triangle.y[0] : '0;
     known_d.bounds = verdict.bounds;
     known_d.state  = verdict.state;
   end
@@ -172,7 +194,10 @@ module setup
     .format_i     (verdict.state.format),
     .least_code_i (verdict.state.least_code),
     .most_code_i  (verdict.state.most_code),
+    .words_o      (words),
+    .short_o      (is_short),
     .valid_o      (depth_valid),
+    .word_o       (depth_d.word),
     .beyond_o     (depth_d.beyond),
     .exponent_o   (depth_d.exponent),
     .offset_o     (depth_d.offset),
@@ -194,6 +219,42 @@ module setup
     .tag_o      (reciprocal_kept),
     .quotient_o (quotient)
   );
+
+  if (Interpolator == Plane) begin : gen_plane
+    // Depths that are 0 have gradients that are 0.
+    logic [1:0] [HalfGradientBits-1:0] dx, dy;
+
+    setup_plane u_plane (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .valid_i      (draw),
+      .x_i          (verdict.triangle.x),
+      .y_i          (verdict.triangle.y),
+      .area2_i      (verdict.area2),
+      .shift_i      (shift),
+      .words_i      (words),
+      .short_i      (is_short),
+      .reciprocal_i (quotient),
+      .valid_o      (divided_valid),
+      .dx_o         (dx),
+      .dy_o         (dy)
+    );
+
+    assign divided_d = '{reciprocal: '0, dx: dx, dy: dy};
+
+    logic unused_reciprocal;
+    assign unused_reciprocal = reciprocal_valid ^ reciprocal_kept;
+  end else begin : gen_barycentric
+    assign divided_valid = reciprocal_valid;
+    assign divided_d     = '{
+      reciprocal: quotient & {ReciprocalBits{reciprocal_kept}},
+      dx:         '0,
+      dy:         '0
+    };
+
+    logic unused_words;
+    assign unused_words = ^{words, is_short};
+  end
 
   // All four count the same credits; one of them says so.
   logic fifo_empty;
@@ -250,18 +311,18 @@ module setup
   );
 
   credit_fifo #(
-    .Width (ReciprocalBits),
+    .Width ($bits(divided_t)),
     .Depth (FifoDepth)
-  ) u_reciprocal_fifo (
+  ) u_divided_fifo (
     .clk_i           (clk_i),
     .rst_ni          (rst_ni),
     .reserve_ready_o (slot_free),
     .reserve_i       (draw),
-    .push_i          (reciprocal_valid),
-    .data_i          (quotient & {ReciprocalBits{reciprocal_kept}}),
+    .push_i          (divided_valid),
+    .data_i          (divided_d),
     .pop_valid_o     (triangle_valid_o),
     .pop_ready_i     (triangle_ready_i),
-    .data_o          (equation_o.reciprocal),
+    .data_o          (divided),
     .empty_o         (fifo_empty)
   );
 
@@ -276,18 +337,31 @@ module setup
     y_first: known.bounds.y_first,
     y_last:  known.bounds.y_last
   };
-  assign equation_o.a        = edges.a[2:1];
-  assign equation_o.b        = edges.b[2:1];
-  assign equation_o.z        = known.z;
-  assign equation_o.bias     = edges.bias;
-  assign equation_o.area2    = edge_t'({1'b0, known.area2});
-  assign equation_o.shift    = known.shift;
-  assign equation_o.beyond   = depth.beyond;
-  assign equation_o.exponent = depth.exponent;
-  assign equation_o.offset   = depth.offset;
-  assign equation_o.min_code = depth.min_code;
-  assign equation_o.max_code = depth.max_code;
-  assign state_o             = known.state;
+  always_comb begin
+    equation_o          = '0;
+    equation_o.beyond   = depth.beyond;
+    equation_o.exponent = depth.exponent;
+    equation_o.offset   = depth.offset;
+    equation_o.min_code = depth.min_code;
+    equation_o.max_code = depth.max_code;
+    if (Interpolator == Plane) begin
+      equation_o.dx   = divided.dx;
+      equation_o.dy   = divided.dy;
+      equation_o.word = depth.word;
+      equation_o.x    = known.x;
+      equation_o.y    = known.y;
+    end else begin
+      equation_o.a          = edges.a[2:1];
+      equation_o.b          = edges.b[2:1];
+      equation_o.z          = known.z;
+      equation_o.bias       = edges.bias;
+      equation_o.area2      = edge_t'({1'b0, known.area2});
+      equation_o.reciprocal = divided.reciprocal;
+      equation_o.shift      = known.shift;
+    end
+  end
+
+  assign state_o = known.state;
 
   assign activity_o = decide         ? SetupBusy
                       : !verdict_valid ? SetupNoTriangle

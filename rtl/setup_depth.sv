@@ -18,8 +18,13 @@ module setup_depth
   input  logic [CodeBits-1:0]   least_code_i,
   input  logic [CodeBits-1:0]   most_code_i,
 
-  // Five cycles later; 0 where there is no depth surface.
+  // Two cycles later: the vertices' depths as words, unorm depths in [0, 1] as they are but for a place 32 bits higher.
+  output word_t [2:0]           words_o,
+  output logic                  short_o,
+
+  // Five cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
   output logic                  valid_o,
+  output word_t                 word_o,
   output logic                  beyond_o,
   output exponent_t             exponent_o,
   output word_t                 offset_o,
@@ -42,11 +47,12 @@ module setup_depth
 
   // First register: the least and the greatest depth.
   typedef struct packed {
-    draw_t         draw;
-    vertex_depth_t z_min;
-    vertex_depth_t z_max;
-    vertex_depth_t offset;
-    logic [7:0]    field; // the largest exponent field
+    draw_t               draw;
+    vertex_depth_t [2:0] z;
+    vertex_depth_t       z_min;
+    vertex_depth_t       z_max;
+    vertex_depth_t       offset;
+    logic [7:0]          field; // the largest exponent field
   } extremes_t;
 
   extremes_t extremes_d, extremes_q;
@@ -70,6 +76,7 @@ module setup_depth
       least_code: least_code_i,
       most_code:  most_code_i
     };
+    extremes_d.z      = z_i;
     extremes_d.z_min  = z_i[0];
     extremes_d.z_max  = z_i[0];
     extremes_d.offset = offset_i;
@@ -103,6 +110,7 @@ module setup_depth
   // Second register: as words. On unorm surfaces they are the depths as they are.
   typedef struct packed {
     draw_t               draw;
+    word_t [2:0]         z;
     word_t               z_min;
     word_t               z_max;
     word_t               offset;
@@ -132,6 +140,7 @@ module setup_depth
     end
     words_d = '{
       draw:     extremes_q.draw,
+      z:        '0,
       z_min:    word_t'(extremes_q.z_min),
       z_max:    word_t'(extremes_q.z_max),
       offset:   word_t'(extremes_q.offset),
@@ -147,7 +156,15 @@ module setup_depth
       words_d.z_max    = word_of_float(extremes_q.z_max[CodeBits-1:0], words_d.exponent);
       words_d.offset   = word_of_float(extremes_q.offset[CodeBits-1:0], words_d.exponent);
     end
+    for (int unsigned i = 0; i < 3; i++) begin
+      words_d.z[i] = !extremes_q.draw.has_depth ? '0 : extremes_q.draw.is_float
+                     ? word_of_float(extremes_q.z[i][CodeBits-1:0], words_d.exponent)
+                     : word_t'(extremes_q.z[i]) <<< (6'd32 - (words_d.beyond ? 6'(exponent) : 6'd0));
+    end
   end
+
+  assign words_o = words_q.z;
+  assign short_o = !words_q.draw.is_float && !words_q.beyond;
 
   pipe_register #(
     .Width ($bits(words_t))
@@ -168,6 +185,7 @@ module setup_depth
     logic                moved; // not by an offset: the codes stand as they are
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
+    word_t               word;
     word_t               offset;
     logic                beyond;
     exponent_t           exponent;
@@ -189,6 +207,7 @@ module setup_depth
     moved:    !words_q.draw.is_float || words_q.offset != '0,
     min_code: words_q.min_code,
     max_code: words_q.max_code,
+    word:     short_o ? words_q.z[0] >>> ShortBits : words_q.z[0],
     offset:   words_q.offset,
     beyond:   words_q.beyond,
     exponent: words_q.exponent
@@ -213,6 +232,7 @@ module setup_depth
     logic                moved;
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
+    word_t               word;
     word_t               offset;
     logic                beyond;
     exponent_t           exponent;
@@ -234,6 +254,7 @@ module setup_depth
       moved:    sums_q.moved,
       min_code: sums_q.min_code,
       max_code: sums_q.max_code,
+      word:     sums_q.word,
       offset:   sums_q.offset,
       beyond:   sums_q.beyond,
       exponent: sums_q.exponent
@@ -259,6 +280,7 @@ module setup_depth
 
   // Fifth register: float32 codes, and both kept within the limits.
   typedef struct packed {
+    word_t               word;
     logic                beyond;
     exponent_t           exponent;
     word_t               offset;
@@ -284,6 +306,7 @@ module setup_depth
     from_sum = codes_q.draw.is_float && codes_q.moved;
     range_d  = '0;
     if (codes_q.draw.has_depth) begin
+      range_d.word     = codes_q.word;
       range_d.beyond   = codes_q.beyond;
       range_d.exponent = codes_q.exponent;
       range_d.offset   = codes_q.offset;
@@ -307,6 +330,7 @@ module setup_depth
     .data_o  (range_q)
   );
 
+  assign word_o     = range_q.word;
   assign beyond_o   = range_q.beyond;
   assign exponent_o = range_q.exponent;
   assign offset_o   = range_q.offset;

@@ -27,7 +27,7 @@ inline SetupState open_state(int size, int sub_pixel_bits = 8) {
           .bottom_left_rule = false,
           .bounds = {.x_first = 0, .y_first = 0, .x_last = size - 1, .y_last = size - 1},
           .depth_format = DepthFormat::kUnorm24,
-          .interpolator = DepthInterpolator::kBarycentric};
+          .interpolator = DepthInterpolator::kPlane};
 }
 
 /// Draws triangles of mixed kinds: any three points, small ones, slivers, vertices on pixel centres, far

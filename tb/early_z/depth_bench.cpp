@@ -1,5 +1,5 @@
 /// Bench of depth_interpolator, one quad wide: the RTL against model/halfspace/units/depth_interpolator.hpp,
-/// sample by sample, a quad a cycle.
+/// sample by sample, a quad a cycle. The build says which interpolator it is, in how many cycles.
 #include <fmt/format.h>
 #include <verilated.h>
 
@@ -11,7 +11,6 @@
 #include <deque>
 #include <vector>
 
-#include "Vdepth_interpolator.h"
 #include "common/failure.hpp"
 #include "common/ports.hpp"
 #include "early_z/triangles.hpp"
@@ -19,11 +18,13 @@
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_generator.hpp"
 
+#include HALFSPACE_MODEL_HEADER
+
 namespace halfspace::tb {
 namespace {
 
 constexpr int kTileSize = 8;
-constexpr std::size_t kLatency = 9;
+constexpr std::size_t kLatency = HALFSPACE_LATENCY;
 constexpr std::size_t kTilesOfTriangle = 4;
 
 struct Expected {
@@ -37,7 +38,7 @@ class DepthBench {
   DepthBench(std::uint64_t seed, bool fault) : random_(seed), fault_(fault) {
     context_.randReset(2);
     context_.randSeed(static_cast<int>(seed & 0x7fffffff) | 1);
-    dut_ = std::make_unique<Vdepth_interpolator>(&context_);
+    dut_ = std::make_unique<HALFSPACE_MODEL>(&context_);
   }
   ~DepthBench() { dut_->final(); }
 
@@ -60,10 +61,11 @@ class DepthBench {
     static constexpr std::array<DepthFormat, 4> kFormats = {DepthFormat::kUnorm16, DepthFormat::kUnorm24,
                                                             DepthFormat::kFloat32, DepthFormat::kFloat32};
     const DepthFormat format = kFormats[random_.below(4)];
-    const SetupTriangle triangle = random_triangle(widths_, format, 512, 512, random_);
-    const EarlyZState state{.format = format, .sub_pixel_bits = widths_.SubPixelBits};
+    const SetupTriangle triangle = random_triangle(widths_, format, interpolator_, 512, 512, random_);
+    const EarlyZState state{
+        .format = format, .interpolator = interpolator_, .sub_pixel_bits = widths_.SubPixelBits};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
-    pack(to_packet(triangle, format), widths_, words);
+    pack(to_packet(triangle, format, interpolator_), widths_, words);
     set_port(dut_->equation_i, words);
     dut_->format_i = static_cast<std::uint8_t>(format);
     low_ = triangle.depth.min_code;
@@ -75,6 +77,8 @@ class DepthBench {
       insert_bits(e, 0, widths_.EdgeBits, static_cast<std::uint64_t>(burst.coverage.e[0]));
       insert_bits(e, widths_.EdgeBits, widths_.EdgeBits, static_cast<std::uint64_t>(burst.coverage.e[1]));
       set_port(dut_->e_i, e);
+      dut_->tile_x_i = burst.coverage.tile_x;
+      dut_->tile_y_i = burst.coverage.tile_y;
       for_each_quad<kTileSize>(burst, [&](const Quad& quad) { send(quad, format, codes); });
     }
   }
@@ -119,11 +123,12 @@ class DepthBench {
     }
   }
 
-  Widths widths_;
+  Widths widths_{.SubPixelBits = HALFSPACE_SUB_PIXEL_BITS};
+  DepthInterpolator interpolator_ = static_cast<DepthInterpolator>(HALFSPACE_INTERPOLATOR);
   Random random_;
   bool fault_;
   VerilatedContext context_;
-  std::unique_ptr<Vdepth_interpolator> dut_;
+  std::unique_ptr<HALFSPACE_MODEL> dut_;
   std::deque<Expected> expected_;
   std::uint32_t low_ = 0;  ///< of the triangle that is sent
   std::uint32_t high_ = 0;

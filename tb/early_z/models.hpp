@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/depth_interpolator.hpp"
 
 namespace halfspace::tb {
 
@@ -24,6 +25,11 @@ struct EarlyZShape {
   int write_bytes = 64;
   int clear_tiles = 64;
   int memory_tiles = 1024;
+  int interpolator_number = 1;
+
+  [[nodiscard]] DepthInterpolator interpolator() const {
+    return static_cast<DepthInterpolator>(interpolator_number);
+  }
 
   /// Bytes of a line of 4-byte samples.
   [[nodiscard]] int line_bytes() const { return 4 * widths.MaskBits / widths.ZParts; }

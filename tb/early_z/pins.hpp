@@ -63,7 +63,8 @@ class VerilatedEarlyZ final : public EarlyZDut {
 template <class Model>
 EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
-                      int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles) {
+                      int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
+                      int interpolator) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
             .TileSize = tile_size,
@@ -79,7 +80,8 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
            read_bytes,
            write_bytes,
            clear_tiles,
-           memory_tiles},
+           memory_tiles,
+           interpolator},
           [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
             return std::make_unique<VerilatedEarlyZ<Model>>(seed);
           }};

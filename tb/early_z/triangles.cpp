@@ -129,13 +129,14 @@ std::vector<QuadBurst> tile_bursts(const Widths& widths, const SetupTriangle& tr
 
 }  // namespace
 
-SetupTriangle random_triangle(const Widths& widths, DepthFormat format, int width, int height,
-                              Random& random) {
+SetupTriangle random_triangle(const Widths& widths, DepthFormat format, DepthInterpolator interpolator,
+                              int width, int height, Random& random) {
   const SetupState state{.sub_pixel_bits = widths.SubPixelBits,
                          .bottom_left_rule = random.below(2) == 0,
                          .bounds = {0, 0, width - 1, height - 1},
                          .depth_format = format,
-                         .limits = random_limits(format, random)};
+                         .limits = random_limits(format, random),
+                         .interpolator = interpolator};
   SetupTriangle triangle;
   while (setup(random_screen_triangle(widths, format, width, height, random), state, triangle) !=
          SetupVerdict::kDrawn) {

@@ -16,7 +16,8 @@ namespace halfspace::tb {
 /// A triangle inside `width` x `height` pixels, or across their borders, that is drawn: slivers, small, large
 /// and guard-band triangles; depths that are random, nearly equal, tiny, at the ends or beyond them; with and
 /// without an offset and limits.
-[[nodiscard]] SetupTriangle random_triangle(const Widths& widths, DepthFormat format, int width, int height,
+[[nodiscard]] SetupTriangle random_triangle(const Widths& widths, DepthFormat format,
+                                            DepthInterpolator interpolator, int width, int height,
                                             Random& random);
 
 /// The bursts of a triangle in row order of tiles, at most `most` of them from a random one on.

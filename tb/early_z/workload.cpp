@@ -160,6 +160,7 @@ class Maker {
                             .write = random_.below(4) != 0,
                             .func = static_cast<DepthFunc>(random_.below(8)),
                             .format = none ? DepthFormat::kNone : surface.format,
+                            .interpolator = shape_.interpolator(),
                             .sub_pixel_bits = shape_.widths.SubPixelBits};
     const auto pixel = [&] {
       return static_cast<std::uint16_t>(random_.bits() >> (64 - shape_.widths.PixelBits));
@@ -189,7 +190,8 @@ class Maker {
     }
     const int height = local_ ? std::min(surface.height, 2 * shape_.widths.TileSize) : surface.height;
     for (std::uint64_t count = 1 + random_.below(kMostTriangles); count > 0 && left > 0; --count) {
-      SetupTriangle triangle = random_triangle(shape_.widths, state.format, surface.width, height, random_);
+      SetupTriangle triangle =
+          random_triangle(shape_.widths, state.format, state.interpolator, surface.width, height, random_);
       const std::vector<QuadBurst> bursts =
           bursts_of(shape_.widths, triangle, std::min(left, kMostBursts), random_);
       if (bursts.empty()) {
@@ -199,7 +201,7 @@ class Maker {
       TriangleWords words;
       words.equation.resize(words_for(packed_bits<DepthEquationPacket>(shape_.widths)));
       words.state.resize(words_for(packed_bits<DrawStatePacket>(shape_.widths)));
-      pack(to_packet(triangle, state.format), shape_.widths, words.equation);
+      pack(to_packet(triangle, state.format, state.interpolator), shape_.widths, words.equation);
       pack(packet, shape_.widths, words.state);
       workload_.triangles.push_back(words);
       for (const QuadBurst& burst : bursts) {

@@ -80,13 +80,14 @@ SetupJob unpack_job(std::span<const std::uint32_t> words, const Widths& widths) 
           packet_at<DrawStatePacket>(words, 0, widths)};
 }
 
-SetupResult reference(const SetupJob& job, int sub_pixel_bits) {
+SetupResult reference(const SetupJob& job, const SetupModel& model) {
   ScreenTriangle triangle{.v = {}, .offset = job.triangle.offset};
   for (std::size_t i = 0; i < 3; ++i) {
     triangle.v[i] = {job.triangle.x[i], job.triangle.y[i], job.triangle.z[i]};
   }
   SetupResult result;
-  result.verdict = setup(triangle, setup_state(job.state, sub_pixel_bits), result.triangle);
+  result.verdict = setup(triangle, setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator()),
+                         result.triangle);
   return result;
 }
 
@@ -96,7 +97,7 @@ std::vector<std::uint32_t> output_words(const SetupJob& job, const SetupTriangle
   std::vector<std::uint32_t> words(words_for(output_bits(widths)));
   Link link(words, output_bits(widths));
   link.append(to_packet(triangle, model.walker(), widths.TileSize), widths);
-  link.append(to_packet(triangle, static_cast<DepthFormat>(job.state.format)), widths);
+  link.append(to_packet(triangle, static_cast<DepthFormat>(job.state.format), model.interpolator()), widths);
   link.append(job.state, widths);
   return words;
 }

@@ -30,7 +30,7 @@ struct SetupResult {
 void pack_job(const SetupJob& job, const Widths& widths, std::span<std::uint32_t> words);
 [[nodiscard]] SetupJob unpack_job(std::span<const std::uint32_t> words, const Widths& widths);
 
-[[nodiscard]] SetupResult reference(const SetupJob& job, int sub_pixel_bits);
+[[nodiscard]] SetupResult reference(const SetupJob& job, const SetupModel& model);
 /// The words on the output link for a drawn triangle.
 [[nodiscard]] std::vector<std::uint32_t> output_words(const SetupJob& job, const SetupTriangle& triangle,
                                                       const SetupModel& model);

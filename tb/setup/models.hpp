@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/stream_dut.hpp"
+#include "halfspace/machine/shape.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/tile_walker.hpp"
 
@@ -17,7 +18,17 @@ struct SetupModel {
   int interval = 1;
   int block_size = 32;
   bool block_level = true;
+  int interpolator_number = 1;
 
+  [[nodiscard]] DepthInterpolator interpolator() const {
+    return static_cast<DepthInterpolator>(interpolator_number);
+  }
+  /// Cycles from the decision to the output.
+  [[nodiscard]] int divide_latency() const {
+    Config config;
+    config.depth.interpolator = interpolator();
+    return latency(Link::kSetup, config);
+  }
   [[nodiscard]] Widths widths() const {
     return {.SubPixelBits = dut.sub_pixel_bits, .TileSize = dut.tile_size};
   }

@@ -19,13 +19,14 @@ struct SetupPins {
 
 template <class Model>
 SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int queue, int fifo,
-                     int interval, int block_size, bool block_level) {
+                     int interval, int block_size, bool block_level, int interpolator) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
           queue,
           fifo,
           interval,
           block_size,
-          block_level};
+          block_level,
+          interpolator};
 }
 
 }  // namespace halfspace::tb

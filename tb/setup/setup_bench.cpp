@@ -20,7 +20,6 @@ namespace halfspace::tb {
 namespace {
 
 constexpr std::size_t kTimingTriangles = 300;
-constexpr int kLatency = kSetupCullLatency + kSetupDivideLatency;
 const std::set<std::string> kCoverageCases = {"directed", "timing", "reset", "random"};
 constexpr std::uint64_t kCoverageTriangles = 5000;  // random ones from which on every bin is asked for
 
@@ -41,7 +40,7 @@ UnitShape shape(const DutModel& dut, Seen& seen) {
   SetupCoverage& coverage = seen.coverage.try_emplace(dut.name, model).first->second;
   return {.input_words = input_words(model.widths()),
           .output_fields = output_fields(model.widths()),
-          .latency = kLatency,
+          .latency = kSetupCullLatency + model.divide_latency(),
           .capacity = model.fifo,
           .timing = [&model, &coverage] { return std::make_unique<SetupTiming>(model, coverage); }};
 }
@@ -67,7 +66,8 @@ std::vector<BenchRun> timing_runs(const SetupModel& model, const BenchOptions& b
   std::vector<BenchRun> runs;
   for (const std::vector<bool>& drawn : timing_patterns()) {
     BenchOptions options = base;
-    options.full_rate_packets = last_leave_at_full_rate(model, drawn) - kLatency;
+    options.full_rate_packets = last_leave_at_full_rate(model, drawn) -
+                                static_cast<std::uint64_t>(kSetupCullLatency + model.divide_latency());
     runs.push_back(
         {"timing", options, [&model, drawn] { return list_stimulus(model, timing_jobs(model, drawn)); }});
   }

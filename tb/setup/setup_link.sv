@@ -8,6 +8,7 @@ module setup_link
   parameter int unsigned Interval = 1,
   parameter int unsigned BlockSize = 32,
   parameter bit BlockLevel = 1'b1,
+  parameter int unsigned Interpolator = 1,
   // Bits of both links.
   localparam int unsigned InBits = $bits(screen_triangle_t) + $bits(draw_state_t),
   localparam int unsigned OutBits =
@@ -41,7 +42,8 @@ module setup_link
     .FifoDepth  (FifoDepth),
     .Interval   (Interval),
     .BlockSize  (BlockSize),
-    .BlockLevel (BlockLevel)
+    .BlockLevel (BlockLevel),
+    .Interpolator (Interpolator)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),

@@ -408,7 +408,7 @@ class JobStimulus : public Stimulus {
 
   void reference(std::span<const std::uint32_t> packet, Scoreboard& scoreboard) final {
     const SetupJob job = unpack_job(packet, model_.widths());
-    const SetupResult result = tb::reference(job, model_.dut.sub_pixel_bits);
+    const SetupResult result = tb::reference(job, model_);
     if (result.verdict == SetupVerdict::kDrawn) {
       scoreboard.expect(output_words(job, result.triangle, model_));
     }

@@ -23,7 +23,7 @@ std::uint64_t last_leave_at_full_rate(const SetupModel& model, const std::vector
       const std::size_t m = leave.size();
       d = std::max({d, drawn_before + model.interval, m >= fifo ? leave[m - fifo] + 1 : 0});
       drawn_before = d;
-      leave.push_back(std::max(d + kSetupDivideLatency, m > 0 ? leave[m - 1] + 1 : 0));
+      leave.push_back(std::max(d + model.divide_latency(), m > 0 ? leave[m - 1] + 1 : 0));
     }
     decide.push_back(d);
   }
@@ -77,7 +77,7 @@ void SetupTiming::decide(const UnitPins& pins) {
   coverage_.decision(Decision::kDrawn, refused);
   queue_.pop_front();
   divider_next_ = pins.cycle + static_cast<std::uint64_t>(model_.interval);
-  visible_at_.push_back(pins.cycle + kSetupDivideLatency);
+  visible_at_.push_back(pins.cycle + static_cast<std::uint64_t>(model_.divide_latency()));
 }
 
 std::optional<Failure> SetupTiming::cycle(const UnitPins& pins) {
@@ -89,7 +89,7 @@ std::optional<Failure> SetupTiming::cycle(const UnitPins& pins) {
                    visible_at_.size() == static_cast<std::size_t>(model_.fifo));
   if (pins.in_valid && pins.in_ready) {
     const SetupJob job = unpack_job(pins.input, model_.widths());
-    const SetupResult result = reference(job, model_.dut.sub_pixel_bits);
+    const SetupResult result = reference(job, model_);
     coverage_.triangle(job, result, model_);
     queue_.push_back({pins.cycle + kSetupCullLatency, result.verdict == SetupVerdict::kDrawn});
   }

@@ -151,6 +151,7 @@ TEST_CASE("barycentric depth just below a power of two does not wrap") {
       0};
   SetupState state = open_state(kSize);
   state.depth_format = DepthFormat::kFloat32;
+  state.interpolator = DepthInterpolator::kBarycentric;
   SetupTriangle triangle;
   REQUIRE(setup(t, state, triangle) == SetupVerdict::kDrawn);
   const mpq_class exact =

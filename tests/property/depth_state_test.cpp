@@ -1,5 +1,5 @@
-// The law of depth state: what a draw covers is a function of x, y and w alone. Polygon offset, depth clamp and
-// depth range act on fragments, after interpolation.
+// The law of depth state: what a draw covers is a function of x, y and w alone. Polygon offset, depth clamp
+// and depth range act on fragments, after interpolation.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,8 +24,8 @@ constexpr int kSide = 64;
 
 double fraction(Random& random) { return static_cast<double>(random.between(0, 1 << 24)) / (1 << 24); }
 
-/// A mesh of clip-space vertices that covers the whole screen: a grid whose inner vertices are moved about, or
-/// a fan around a point. With `crossing`, w and z differ so much that z / w leaves any range.
+/// A mesh of clip-space vertices that covers the whole screen: a grid whose inner vertices are moved about,
+/// or a fan around a point. With `crossing`, w and z differ so much that z / w leaves any range.
 struct Mesh {
   std::vector<glm::vec4> vertices;
   std::vector<std::uint32_t> indices;
@@ -34,9 +34,10 @@ struct Mesh {
 /// x, y from -1 to 1, and the height, which bends the depth of a terrain.
 glm::vec4 clip_vertex(double x, double y, double height, bool crossing, Random& random) {
   const double w = crossing ? std::ldexp(1 + fraction(random), static_cast<int>(random.between(-8, 8))) : 1;
-  const double z = crossing ? std::ldexp(2 * fraction(random) - 1, static_cast<int>(random.between(-4, 12)))
-                            : height;
-  return {static_cast<float>(x * w), static_cast<float>(y * w), static_cast<float>(z * w), static_cast<float>(w)};
+  const double z =
+      crossing ? std::ldexp(2 * fraction(random) - 1, static_cast<int>(random.between(-4, 12))) : height;
+  return {static_cast<float>(x * w), static_cast<float>(y * w), static_cast<float>(z * w),
+          static_cast<float>(w)};
 }
 
 Mesh jittered_grid(Random& random, bool crossing) {
@@ -67,10 +68,12 @@ Mesh jittered_grid(Random& random, bool crossing) {
 Mesh fan(Random& random, bool crossing) {
   const auto rim = static_cast<std::uint32_t>(random.between(5, 40));
   Mesh mesh;
-  mesh.vertices.push_back(clip_vertex(2 * fraction(random) - 1, 2 * fraction(random) - 1, fraction(random), crossing, random));
+  mesh.vertices.push_back(
+      clip_vertex(2 * fraction(random) - 1, 2 * fraction(random) - 1, fraction(random), crossing, random));
   for (std::uint32_t i = 0; i < rim; ++i) {
     const double angle = 2 * M_PI * (i + 0.5 * fraction(random)) / rim;
-    mesh.vertices.push_back(clip_vertex(8 * std::cos(angle), 8 * std::sin(angle), fraction(random), crossing, random));
+    mesh.vertices.push_back(
+        clip_vertex(8 * std::cos(angle), 8 * std::sin(angle), fraction(random), crossing, random));
     mesh.indices.insert(mesh.indices.end(), {0, i + 1, i + 1 == rim ? 1 : i + 2});
   }
   return mesh;
@@ -79,7 +82,8 @@ Mesh fan(Random& random, bool crossing) {
 /// Any depth state but depth clamp, which takes the near and the far plane away.
 void randomise(Command& draw, Random& random) {
   const auto any = [&] {
-    return std::ldexp(static_cast<float>(2 * fraction(random) - 1), static_cast<int>(random.between(-30, 20)));
+    return std::ldexp(static_cast<float>(2 * fraction(random) - 1),
+                      static_cast<int>(random.between(-30, 20)));
   };
   if (random.between(0, 1) == 0) {
     draw.flags |= bits({Flag::kPolygonOffset});
@@ -163,8 +167,8 @@ TEST_CASE("one unit of polygon offset separates two equal triangles") {
       const glm::dvec2 centre{fraction(random) * kSide, fraction(random) * kSide};
       std::vector<glm::dvec3> triangle;
       for (int v = 0; v < 3; ++v) {
-        triangle.emplace_back(centre.x + (fraction(random) - 0.5) * reach, centre.y + (fraction(random) - 0.5) * reach,
-                              is_flat ? flat : depth());
+        triangle.emplace_back(centre.x + (fraction(random) - 0.5) * reach,
+                              centre.y + (fraction(random) - 0.5) * reach, is_flat ? flat : depth());
       }
       builder.draw(triangle).depth_func = DepthFunc::kAlways;
       Command& again = builder.draw(triangle);
@@ -197,7 +201,8 @@ TEST_CASE("polygon offset is within a unit of the last place of its formula") {
     reference::GridTriangle grid;
     for (std::size_t i = 0; i < 3; ++i) {
       grid[i] = {random.between(-16 * 256, 32 * 256), random.between(-16 * 256, 32 * 256)};
-      triangle.emplace_back(grid[i].x / 256.0, grid[i].y / 256.0, static_cast<double>(random.between(0, 1 << 20)) / (1 << 20));
+      triangle.emplace_back(grid[i].x / 256.0, grid[i].y / 256.0,
+                            static_cast<double>(random.between(0, 1 << 20)) / (1 << 20));
     }
     if (reference::twice_area(grid[0], grid[1], grid[2]) == 0) {
       continue;
@@ -207,7 +212,8 @@ TEST_CASE("polygon offset is within a unit of the last place of its formula") {
     draw.depth_func = DepthFunc::kAlways;
     draw.flags |= bits({Flag::kPolygonOffset});
     const auto any = [&](int least, int most) {
-      return std::ldexp(static_cast<float>(2 * fraction(random) - 1), static_cast<int>(random.between(least, most)));
+      return std::ldexp(static_cast<float>(2 * fraction(random) - 1),
+                        static_cast<int>(random.between(least, most)));
     };
     draw.offset_factor = random.between(0, 3) == 0 ? 0 : any(-10, 3);
     draw.offset_units = random.between(0, 3) == 0 ? 0 : any(0, 20);

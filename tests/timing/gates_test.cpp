@@ -55,6 +55,7 @@ class Rig {
 
 Config deep() {
   Config config;
+  config.depth.interpolator = DepthInterpolator::kBarycentric;  // a division of 18 cycles
   config.setup.queue = config.setup.fifo = config.tile_walker.fifo = config.quad_generator.fifo = 64;
   config.edge_evaluator.fifo = 32;
   config.early_z.pending = config.early_z.fifo = 64;
@@ -87,6 +88,14 @@ TEST_CASE("timing gates: latency of each unit", "[timing]") {
   CHECK(rig.times.f.at(0) == 28 + 2);
   CHECK(rig.times.b.at(0) == 30 + 14);
   CHECK(rig.times.y.at(0) == 44 + 2);
+}
+
+TEST_CASE("timing gates: the division for the plane", "[timing]") {
+  Config config = deep();
+  config.depth.interpolator = DepthInterpolator::kPlane;
+  Rig rig(config);
+  rig.triangle(1, {4});
+  CHECK(rig.times.accept.at(0) == 4 + 32);
 }
 
 TEST_CASE("timing gates: pipeline registers of the interpolator", "[timing]") {

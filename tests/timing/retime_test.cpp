@@ -149,7 +149,7 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
       {"tile_walker.tile_size", "16"},         {"raster.sub_pixel_bits", "7"},
       {"tile_walker.block_size", "16"},        {"tile_walker.block_level", "false"},
       {"tile_walker.trivial_reject", "false"}, {"tile_walker.trivial_accept", "false"},
-      {"depth.interpolator", "plane"},         {"late_z", "no_write"},
+      {"depth.interpolator", "barycentric"},   {"late_z", "no_write"},
       {"z_cache.fast_clear", "false"}};
   for (const auto& [key, value] : changes) {
     Config config;

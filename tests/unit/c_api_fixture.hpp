@@ -38,6 +38,7 @@ using Model = std::unique_ptr<halfspace_model, Destroy>;
 struct Machine {
   Widths widths;
   bool block_level = true;
+  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
 
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = widths.SubPixelBits, .block_size = 32, .block_level = block_level};
@@ -46,8 +47,10 @@ struct Machine {
 
 const std::array<Machine, 4> kMachines = {
     Machine{Widths{}, true},
-    Machine{Widths{.SubPixelBits = 4, .TileSize = 4, .QuadWidth = 2, .TestWidth = 1, .ZParts = 2}, true},
-    Machine{Widths{.SubPixelBits = 6, .TileSize = 16, .QuadWidth = 16, .TestWidth = 16, .ZParts = 4}, false},
+    Machine{Widths{.SubPixelBits = 4, .TileSize = 4, .QuadWidth = 2, .TestWidth = 1, .ZParts = 2}, true,
+            DepthInterpolator::kPlane},
+    Machine{Widths{.SubPixelBits = 6, .TileSize = 16, .QuadWidth = 16, .TestWidth = 16, .ZParts = 4}, false,
+            DepthInterpolator::kPlane},
     Machine{Widths{.SubPixelBits = 8, .TileSize = 16, .QuadWidth = 8, .TestWidth = 4}, true}};
 
 inline Model make_model(const Machine& machine, std::initializer_list<int> links) {
@@ -58,7 +61,9 @@ inline Model make_model(const Machine& machine, std::initializer_list<int> links
         fmt::format("tile_walker.tile_size={}", w.TileSize),
         fmt::format("quad_generator.quads_per_cycle={}", w.QuadWidth),
         fmt::format("early_z.quads_per_cycle={}", w.TestWidth), fmt::format("z_cache.parts={}", w.ZParts),
-        fmt::format("tile_walker.block_level={}", machine.block_level)}) {
+        fmt::format("tile_walker.block_level={}", machine.block_level),
+        fmt::format("depth.interpolator={}",
+                    machine.interpolator == DepthInterpolator::kPlane ? "plane" : "barycentric")}) {
     REQUIRE(halfspace_set(model.get(), setting.c_str()) == HALFSPACE_OK);
   }
   for (const int link : links) {
@@ -128,7 +133,8 @@ class Reference {
                      .bottom_left_rule = draw.bottom_left_rule != 0,
                      .bounds = {},
                      .depth_format = static_cast<DepthFormat>(draw.format),
-                     .limits = {.least = draw.least_code, .most = draw.most_code}};
+                     .limits = {.least = draw.least_code, .most = draw.most_code},
+                     .interpolator = machine_.interpolator};
     if (draw.empty == 0) {
       state.bounds = {draw.x_first, draw.y_first, draw.x_last, draw.y_last};
     }
@@ -136,7 +142,7 @@ class Reference {
     if (setup(in, state, triangle_) != SetupVerdict::kDrawn) {
       return;
     }
-    const DepthEquationPacket equation = to_packet(triangle_, state.depth_format);
+    const DepthEquationPacket equation = to_packet(triangle_, state.depth_format, state.interpolator);
     packets[HALFSPACE_SETUP_TRIANGLE].push_back(
         join(widths, to_packet(triangle_, machine_.walker(), TileSize), equation, draw));
     packets[HALFSPACE_SLOT].push_back(join(widths, SlotNumber{slot_}, equation, draw));
@@ -171,6 +177,7 @@ class Reference {
                             .write = draw_.write != 0,
                             .func = static_cast<DepthFunc>(draw_.func),
                             .format = static_cast<DepthFormat>(draw_.format),
+                            .interpolator = machine_.interpolator,
                             .sub_pixel_bits = machine_.widths.SubPixelBits};
     TileCodes<TileSize> codes{};
     if (draw_.format != 0) {

@@ -78,10 +78,6 @@ TEST_CASE("c_api: an illegal configuration is refused with what is legal") {
   CHECK(halfspace_packet_bits(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("'tile_walker.block_size' is 8"));
   REQUIRE(halfspace_set(model.get(), "tile_walker.block_size=16") == HALFSPACE_OK);
-  REQUIRE(halfspace_set(model.get(), "depth.interpolator=plane") == HALFSPACE_OK);
-  CHECK(halfspace_watch(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_REFUSED);
-  CHECK_THAT(error(model), Catch::Contains("'depth.interpolator' is 'plane'; legal here: barycentric"));
-  REQUIRE(halfspace_set(model.get(), "depth.interpolator=barycentric") == HALFSPACE_OK);
   CHECK(halfspace_watch(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_OK);
   CHECK(error(model).empty());
 }

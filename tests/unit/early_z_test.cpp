@@ -54,7 +54,7 @@ TEST_CASE("early_z: passes and writes as the depth function says") {
                             .write = write,
                             .func = static_cast<DepthFunc>(func),
                             .format = format,
-                            .interpolator = DepthInterpolator::kBarycentric,
+                            .interpolator = DepthInterpolator::kPlane,
                             .sub_pixel_bits = 8};
     const std::uint64_t covered = 0x00FF00FF0F0F0F0Full;
     TileCodes<8> codes{};

@@ -50,11 +50,9 @@ ChainContext& GoldenModel::context() {
     return *context_;
   }
   validate(config_);
-  if (config_.depth.interpolator != DepthInterpolator::kBarycentric) {
-    throw InputError("configuration key 'depth.interpolator' is 'plane'; legal here: barycentric");
-  }
   auto context = std::make_unique<ChainContext>();
   context->widths = widths(config_);
+  context->interpolator = config_.depth.interpolator;
   context->walker = {.sub_pixel_bits = config_.raster.sub_pixel_bits,
                      .block_size = config_.tile_walker.block_size,
                      .block_level = config_.tile_walker.block_level,

@@ -88,8 +88,7 @@ HALFSPACE_API const char* halfspace_error(const halfspace_model* model);
 
 /*
  * Configuration: the keys of `halfspace config`. It is fixed by the first call of any function below these
- * three; sizes that must fit each other are checked then. depth.interpolator must stay barycentric: the plane
- * has no packet.
+ * three; sizes that must fit each other are checked then.
  */
 
 /** The machine of a TOML file, with defaults for what it does not set. Drops what was set before. */

@@ -128,7 +128,7 @@ void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& 
                       triangle.edge, equation.area2, format,
                       {.least = draw.least_code, .most = draw.most_code}, DepthInterpolator::kBarycentric,
                       triangle.depth);
-  const DepthEquationPacket legal = to_packet(triangle, format);
+  const DepthEquationPacket legal = to_packet(triangle, format, DepthInterpolator::kBarycentric);
   demand_equal("equation.reciprocal", equation.reciprocal, legal.reciprocal, "which follows from area2");
   demand_equal("equation.shift", equation.shift, legal.shift, "which follows from area2");
   demand_equal("equation.beyond", equation.beyond, legal.beyond, "which follows from z");
@@ -136,6 +136,25 @@ void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& 
   demand_equal("equation.offset", equation.offset, legal.offset, "which follows from exponent");
   demand_equal("equation.min_code", equation.min_code, legal.min_code, "which follows from z and offset");
   demand_equal("equation.max_code", equation.max_code, legal.max_code, "which follows from z and offset");
+}
+
+void check_plane(const DepthEquationPacket& equation, const DrawStatePacket& draw) {
+  if (draw.format == 0) {
+    return;
+  }
+  if (equation.min_code < draw.least_code || equation.max_code > draw.most_code ||
+      equation.max_code < equation.min_code) {
+    throw InputError(
+        fmt::format("equation.min_code and max_code are {:#x} and {:#x}; legal: {:#x} to {:#x}, the draw's, "
+                    "in this order",
+                    equation.min_code, equation.max_code, draw.least_code, draw.most_code));
+  }
+  const bool is_float = static_cast<DepthFormat>(draw.format) == DepthFormat::kFloat32;
+  const int least = is_float ? -125 : 0;
+  const int most = kVertexDepthRange + 1;
+  if (equation.exponent < least || equation.exponent > most) {
+    throw InputError(fmt::format("equation.exponent is {}; legal: {} to {}", equation.exponent, least, most));
+  }
 }
 
 void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle& triangle) {

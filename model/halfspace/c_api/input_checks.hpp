@@ -25,6 +25,9 @@ void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle
 /// For early_z: the equation is that of some triangle, in the format of the draw.
 void check_equation(const DepthEquationPacket& equation, const DrawStatePacket& draw);
 
+/// The same where the interpolator is the plane: codes and exponent are possible.
+void check_plane(const DepthEquationPacket& equation, const DrawStatePacket& draw);
+
 /// For early_z, where it works on what comes out of the walk: the equation is that of this triangle.
 void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle& triangle);
 

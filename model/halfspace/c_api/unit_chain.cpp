@@ -18,8 +18,7 @@
 namespace halfspace::c_api {
 namespace {
 
-/// What early_z keeps of a triangle: of its edges A and B, of its depth all that the barycentric interpolator
-/// uses.
+/// What early_z keeps of a triangle: all that the interpolator uses.
 struct Slot {
   SetupTriangle triangle;
   DrawStatePacket draw;
@@ -34,6 +33,14 @@ SetupTriangle depth_part(const DepthEquationPacket& equation) {
   triangle.depth.area2 = equation.area2;
   triangle.depth.reciprocal = equation.reciprocal;
   triangle.depth.shift = equation.shift;
+  const auto gradient = [](const std::array<std::uint64_t, 2>& halves) {
+    return Modular{halves[1]} << Widths{}.HalfGradientBits | halves[0];
+  };
+  triangle.depth.plane = {.dx = gradient(equation.dx),
+                          .dy = gradient(equation.dy),
+                          .z = equation.word,
+                          .x = equation.x,
+                          .y = equation.y};
   triangle.depth.beyond = equation.beyond != 0;
   triangle.depth.exponent = equation.exponent;
   triangle.depth.offset = equation.offset;
@@ -43,10 +50,10 @@ SetupTriangle depth_part(const DepthEquationPacket& equation) {
 }
 
 /// The units' view of a draw. Whatever leaves early_z has its depth, as where quads are recorded.
-DrawContext draw_context(const DrawStatePacket& packet, const Widths& widths) {
+DrawContext draw_context(const DrawStatePacket& packet, const ChainContext& context) {
   DrawContext draw;
-  draw.setup = setup_state(packet, widths.SubPixelBits);
-  draw.early_z = early_z_state(packet, widths.SubPixelBits);
+  draw.setup = setup_state(packet, context.widths.SubPixelBits, context.interpolator);
+  draw.early_z = early_z_state(packet, context.widths.SubPixelBits, context.interpolator);
   draw.record_quads = true;
   return draw;
 }
@@ -116,12 +123,12 @@ class Chain final : public UnitChain {
     for (std::size_t i = 0; i < 3; ++i) {
       in.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
     }
-    DrawContext context = draw_context(draw, widths_);
+    DrawContext context = draw_context(draw, context_);
     SetupTriangle out;
     if (!passage::setup(in, context, out)) {
       return;
     }
-    const DepthEquationPacket equation = to_packet(out, context.setup.depth_format);
+    const DepthEquationPacket equation = to_packet(out, context.setup.depth_format, context_.interpolator);
     emit<SetupTriangleLink>(LinkId::kSetupTriangle, to_packet(out, context_.walker, TileSize), equation,
                             draw);
     walk(out, equation, draw);
@@ -148,7 +155,7 @@ class Chain final : public UnitChain {
     check_walk(packet, in, context_.walker, widths_);
     if (context_.reaches(LinkId::kTestedBeat)) {
       check_kept(equation, draw);
-      if (draw.format != 0) {
+      if (draw.format != 0 && barycentric()) {
         check_equation_of(equation, in);
       }
       check_target(draw, packet.x_last, packet.y_last);
@@ -210,14 +217,14 @@ class Chain final : public UnitChain {
                                    coverage.slot, HALFSPACE_SLOT, link_name(LinkId::kSlot)));
     }
     const DrawStatePacket& draw = slot->draw;
-    DrawContext context = draw_context(draw, widths_);
+    DrawContext context = draw_context(draw, context_);
     std::uint32_t* stored = nullptr;
     if (context.early_z.test) {
       check_target(draw, coverage.tile_x * TileSize, coverage.tile_y * TileSize);
       stored = context_.surfaces.of_draw(draw).codes.tile(coverage.tile_x, coverage.tile_y);
     }
     TileCodes<TileSize> codes{};
-    if (context.early_z.format != DepthFormat::kNone) {
+    if (context.early_z.format != DepthFormat::kNone && barycentric()) {
       check_samples(coverage, slot->triangle, widths_);
     }
     const TileMask passed = passage::z_test<TileSize>(slot->triangle, burst, context, stored, codes);
@@ -282,9 +289,15 @@ class Chain final : public UnitChain {
     return burst;
   }
 
+  [[nodiscard]] bool barycentric() const { return context_.interpolator == DepthInterpolator::kBarycentric; }
+
   void check_kept(const DepthEquationPacket& equation, const DrawStatePacket& draw) const {
     check_draw(draw);
-    check_equation(equation, draw);
+    if (barycentric()) {
+      check_equation(equation, draw);
+    } else {
+      check_plane(equation, draw);
+    }
     if (draw.test != 0) {
       static_cast<void>(context_.surfaces.of_draw(draw));
     }

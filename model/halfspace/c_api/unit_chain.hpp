@@ -18,6 +18,7 @@ namespace halfspace::c_api {
 struct ChainContext {
   Widths widths;
   WalkerConfig walker;
+  DepthInterpolator interpolator = DepthInterpolator::kPlane;
   DepthSurfaces surfaces;
   std::vector<ExpectedPackets> expected;  ///< by link
   std::array<bool, HALFSPACE_LINKS> watched{};

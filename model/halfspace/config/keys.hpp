@@ -37,7 +37,7 @@
         "triangles in the cull stage and its queue, dropped ones included", SetupQueue)                      \
     MODULE(setup., interval, int, 1, power_of_two(1, 16), "cycles", time,                                    \
         "from a drawn triangle to the next: the time of a divider stage", SetupInterval)                     \
-    MODULE(setup., fifo, int, 24, range(2, 64), "triangles", time,                                           \
+    MODULE(setup., fifo, int, 40, range(2, 64), "triangles", time,                                           \
         "output FIFO of setup", SetupFifo)                                                                   \
   END(setup)                                                                                                 \
   BEGIN(tile_walker)                                                                                         \
@@ -78,9 +78,10 @@
         "output FIFO of early_z", EarlyZFifo)                                                                \
   END(early_z)                                                                                               \
   BEGIN(depth)                                                                                               \
-    KEY(depth., interpolator, DepthInterpolator, DepthInterpolator::kBarycentric,                            \
+    MODULE(depth., interpolator, DepthInterpolator, DepthInterpolator::kPlane,                               \
         one_of("plane", "barycentric"), "", function,                                                        \
-        "plane = additions alone for a sample, barycentric = products; both within one unit of the last place")                \
+        "plane = additions alone for a sample, barycentric = products; both within one unit of the last "    \
+        "place", Interpolator)                                                                               \
     MODULE(depth., latency, int, 9, range(9, 32), "cycles", time,                                            \
         "pipeline registers of the interpolator", InterpolatorLatency)                                       \
   END(depth)                                                                                                 \

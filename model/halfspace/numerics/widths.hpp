@@ -25,6 +25,7 @@ namespace halfspace {
   W(FlagBits,        1,                                                "yes or no")                                  \
   W(VertexDepthBits, 48,                                               "depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits") \
   W(WordBits,        64,                                               "depth with the binary point behind the sign, on a scale of the triangle") \
+  W(HalfGradientBits, 43,                                              "half of a gradient of depth: a word and 22 bits below it, together 86") \
   W(ExponentBits,    9,                                                "power of two above all depths of a triangle, signed") \
   W(CodeBits,        32,                                               "a stored depth code of any format")           \
   W(ReciprocalBits,  32,                                               "(2^63 - 1) / (2A scaled to 32 bits)")         \

@@ -11,8 +11,8 @@ namespace {
 
 __extension__ using Int128 = __int128;
 
-// z in units of 2^-44 takes 71 bits and a sign, E anywhere in the guard band 51, and the sum of three products
-// two more.
+// z in units of 2^-44 takes 71 bits and a sign, E anywhere in the guard band 51, and the sum of three
+// products two more.
 constexpr int kFraction = 44;
 constexpr double kMostFar = 1 << 27;
 
@@ -30,7 +30,8 @@ struct Numerator {
   [[nodiscard]] Int128 at(std::int32_t x, std::int32_t y) const { return origin + dx * x + dy * y; }
 };
 
-Numerator numerator(const std::array<ScreenVertex, 3>& v, const std::array<double, 3>& z, int sub_pixel_bits) {
+Numerator numerator(const std::array<ScreenVertex, 3>& v, const std::array<double, 3>& z,
+                    int sub_pixel_bits) {
   Numerator sum;
   const std::int64_t centre = std::int64_t{1} << (sub_pixel_bits - 1);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -103,8 +104,9 @@ std::size_t emit_by_sample(const ScreenTriangle& triangle, const std::array<doub
     const Int128 step = rises ? depth.dx : -depth.dx;
     const Int128 first = depth.at(pixel(0), y);
     if (step == 0) {
-      run(0, count, std::clamp(std::ldexp(static_cast<double>(first) / static_cast<double>(depth.area2), -kFraction),
-                               range.least, range.most));
+      run(0, count,
+          std::clamp(std::ldexp(static_cast<double>(first) / static_cast<double>(depth.area2), -kFraction),
+                     range.least, range.most));
       continue;
     }
     const std::int32_t below = before(first, step, least, count);

@@ -21,11 +21,11 @@ struct DepthRange {
 /// True where a vertex depth cannot hold one of `z`.
 bool is_far(const std::array<double, 3>& z);
 
-/// Appends the triangle as often as it takes, each time with other pixels of `screen` and one depth for all of
-/// them; its edges stay as they are, so every sample is covered once, or not, as if z were nothing. Where depth
-/// is outside `range` that takes a few pieces a row, inside a piece a sample, of which there are few: z changes
-/// by much from one to the next. `z` is that of the vertices, with polygon offset; those beyond +-2^27 count as
-/// if they were there. Returns the number of pieces.
+/// Appends the triangle as often as it takes, each time with other pixels of `screen` and one depth for all
+/// of them; its edges stay as they are, so every sample is covered once, or not, as if z were nothing. Where
+/// depth is outside `range` that takes a few pieces a row, inside a piece a sample, of which there are few: z
+/// changes by much from one to the next. `z` is that of the vertices, with polygon offset; those beyond
+/// +-2^27 count as if they were there. Returns the number of pieces.
 std::size_t emit_by_sample(const ScreenTriangle& triangle, const std::array<double, 3>& z,
                            const DepthRange& range, DepthFormat format, int sub_pixel_bits,
                            const PixelRect& screen, std::vector<ScreenTriangle>& out);

@@ -46,6 +46,10 @@ struct TilePlane {
   }
 };
 
+/// Squares of so many pixels on a side share the word that additions start from, whatever the size of tiles:
+/// so depth does not depend on it.
+inline constexpr std::int32_t kAnchorSize = 16;
+
 /// `x` and `y` are the tile's first pixel.
 template <class Word>
 TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int32_t y, int sub_pixel_bits) {
@@ -53,16 +57,21 @@ TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int3
   const auto dx = static_cast<Product>(plane.dx);
   const auto dy = static_cast<Product>(plane.dy);
   const std::int64_t half_pixel = std::int64_t{1} << (sub_pixel_bits - 1);
-  const auto right = static_cast<Product>((std::int64_t{x} << sub_pixel_bits) + half_pixel - plane.x);
-  const auto down = static_cast<Product>((std::int64_t{y} << sub_pixel_bits) + half_pixel - plane.y);
+  const auto from_vertex = [&](std::int32_t pixel, std::int32_t vertex) {
+    const std::int64_t anchor = pixel / kAnchorSize * kAnchorSize;
+    return static_cast<Product>((anchor << sub_pixel_bits) + half_pixel - vertex);
+  };
   // The word nearest to `value`, which has `fraction` bits more.
   const auto nearest = [](Product value, int fraction) {
     return static_cast<Word>((value + (Product{1} << (fraction - 1))) >> fraction);
   };
-  const Product origin = (static_cast<Product>(plane.z) << kGradientFraction) + dx * right + dy * down;
-  return {.origin = nearest(origin, kGradientFraction),
-          .dx = nearest(dx, kGradientFraction - sub_pixel_bits),
-          .dy = nearest(dy, kGradientFraction - sub_pixel_bits)};
+  const Product anchor = (static_cast<Product>(plane.z) << kGradientFraction) + dx * from_vertex(x, plane.x) +
+                         dy * from_vertex(y, plane.y);
+  TilePlane<Word> tile{.origin = nearest(anchor, kGradientFraction),
+                       .dx = nearest(dx, kGradientFraction - sub_pixel_bits),
+                       .dy = nearest(dy, kGradientFraction - sub_pixel_bits)};
+  tile.origin += static_cast<Word>(x % kAnchorSize) * tile.dx + static_cast<Word>(y % kAnchorSize) * tile.dy;
+  return tile;
 }
 
 }  // namespace halfspace

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "halfspace/numerics/widths.hpp"
+#include "halfspace/units/depth_plane.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
@@ -85,7 +86,8 @@ struct DrawStatePacket {
 };
 
 /// What setup looks at in it.
-inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits) {
+inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits,
+                              DepthInterpolator interpolator) {
   SetupState state{.sub_pixel_bits = sub_pixel_bits,
                    .front_positive_area = draw.front_positive_area != 0,
                    .cull_front = draw.cull_front != 0,
@@ -93,7 +95,8 @@ inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits) {
                    .bottom_left_rule = draw.bottom_left_rule != 0,
                    .bounds = {},
                    .depth_format = static_cast<DepthFormat>(draw.format),
-                   .limits = {.least = draw.least_code, .most = draw.most_code}};
+                   .limits = {.least = draw.least_code, .most = draw.most_code},
+                   .interpolator = interpolator};
   if (draw.empty == 0) {
     state.bounds = {
         .x_first = draw.x_first, .y_first = draw.y_first, .x_last = draw.x_last, .y_last = draw.y_last};
@@ -102,11 +105,13 @@ inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits) {
 }
 
 /// What early_z looks at in it.
-inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits) {
+inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits,
+                                 DepthInterpolator interpolator) {
   return {.test = draw.test != 0,
           .write = draw.write != 0,
           .func = static_cast<DepthFunc>(draw.func),
           .format = static_cast<DepthFormat>(draw.format),
+          .interpolator = interpolator,
           .sub_pixel_bits = sub_pixel_bits};
 }
 
@@ -156,8 +161,10 @@ inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const Walker
   return packet;
 }
 
-/// What early_z needs of a triangle, for the barycentric interpolator. Index 0 of a and b is edge 1.
+/// What early_z needs of a triangle. What only the other interpolator uses is 0. Index 0 of a and b is
+/// edge 1.
 struct DepthEquationPacket {
+  // Barycentric.
   std::array<std::int32_t, 2> a{};
   std::array<std::int32_t, 2> b{};
   std::array<std::int64_t, 3> z{};
@@ -165,6 +172,13 @@ struct DepthEquationPacket {
   std::int64_t area2 = 0;
   std::uint32_t reciprocal = 0;
   std::int8_t shift = 0;
+  // Plane; gradients as halves, the upper one last.
+  std::array<std::uint64_t, 2> dx{};
+  std::array<std::uint64_t, 2> dy{};
+  std::int64_t word = 0;  ///< at vertex 0
+  std::int32_t x = 0;     ///< of vertex 0
+  std::int32_t y = 0;
+  // Both.
   std::uint8_t beyond = 0;
   std::int16_t exponent = 0;
   std::int64_t offset = 0;
@@ -181,6 +195,11 @@ struct DepthEquationPacket {
     visit("area2", &P::area2, &Widths::EdgeBits, Sign::kSigned);
     visit("reciprocal", &P::reciprocal, &Widths::ReciprocalBits, Sign::kUnsigned);
     visit("shift", &P::shift, &Widths::ShiftBits, Sign::kSigned);
+    visit("dx", &P::dx, &Widths::HalfGradientBits, Sign::kUnsigned);
+    visit("dy", &P::dy, &Widths::HalfGradientBits, Sign::kUnsigned);
+    visit("word", &P::word, &Widths::WordBits, Sign::kSigned);
+    visit("x", &P::x, &Widths::CoordBits, Sign::kSigned);
+    visit("y", &P::y, &Widths::CoordBits, Sign::kSigned);
     visit("beyond", &P::beyond, &Widths::FlagBits, Sign::kUnsigned);
     visit("exponent", &P::exponent, &Widths::ExponentBits, Sign::kSigned);
     visit("offset", &P::offset, &Widths::WordBits, Sign::kSigned);
@@ -189,23 +208,49 @@ struct DepthEquationPacket {
   }
 };
 
-/// The barycentric equation of a triangle. Where the draw has no depth surface there is none: a, b and bias
-/// are the edges' all the same, everything else is 0.
-inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat format) {
+/// The halves of a gradient; of one for short words the bits that they need.
+constexpr std::array<std::uint64_t, 2> gradient_halves(Modular gradient, bool short_words) {
+  constexpr int kHalf = Widths{}.HalfGradientBits;
+  constexpr Modular kMask = (Modular{1} << kHalf) - 1;
+  constexpr Modular kShort = (Modular{1} << (32 + kGradientFraction)) - 1;
+  const Modular kept = short_words ? gradient & kShort : gradient;
+  return {static_cast<std::uint64_t>(kept & kMask), static_cast<std::uint64_t>(kept >> kHalf & kMask)};
+}
+
+/// The equation of a triangle. Where the draw has no depth surface there is none: a, b and bias of the
+/// barycentric one are the edges' all the same, everything else is 0.
+inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat format,
+                                     DepthInterpolator interpolator) {
   const std::array<Edge, 3>& edge = triangle.edge;
   const DepthEquation& depth = triangle.depth;
-  DepthEquationPacket packet{.a = {edge[1].a, edge[2].a}, .b = {edge[1].b, edge[2].b}, .bias = depth.bias};
-  if (format != DepthFormat::kNone) {
+  const bool barycentric = interpolator == DepthInterpolator::kBarycentric;
+  DepthEquationPacket packet;
+  if (barycentric) {
+    packet.a = {edge[1].a, edge[2].a};
+    packet.b = {edge[1].b, edge[2].b};
+    packet.bias = depth.bias;
+  }
+  if (format == DepthFormat::kNone) {
+    return packet;
+  }
+  if (barycentric) {
     packet.z = depth.z;
     packet.area2 = depth.area2;
     packet.reciprocal = depth.reciprocal;
     packet.shift = depth.shift;
-    packet.beyond = depth.beyond ? 1 : 0;
-    packet.exponent = depth.exponent;
-    packet.offset = depth.offset;
-    packet.min_code = depth.min_code;
-    packet.max_code = depth.max_code;
+  } else {
+    const bool short_words = format != DepthFormat::kFloat32 && !depth.beyond;
+    packet.dx = gradient_halves(depth.plane.dx, short_words);
+    packet.dy = gradient_halves(depth.plane.dy, short_words);
+    packet.word = depth.plane.z;
+    packet.x = depth.plane.x;
+    packet.y = depth.plane.y;
   }
+  packet.beyond = depth.beyond ? 1 : 0;
+  packet.exponent = depth.exponent;
+  packet.offset = depth.offset;
+  packet.min_code = depth.min_code;
+  packet.max_code = depth.max_code;
   return packet;
 }
 

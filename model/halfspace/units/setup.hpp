@@ -22,7 +22,7 @@ struct SetupState {
   PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
-  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
+  DepthInterpolator interpolator = DepthInterpolator::kPlane;
 };
 
 enum class SetupVerdict : std::uint8_t {

@@ -20,7 +20,7 @@ struct EarlyZState {
   bool write = false;  ///< passing fragments write; only with the test on
   DepthFunc func = DepthFunc::kAlways;
   DepthFormat format = DepthFormat::kNone;
-  DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
+  DepthInterpolator interpolator = DepthInterpolator::kPlane;
   int sub_pixel_bits = 8;
 };
 

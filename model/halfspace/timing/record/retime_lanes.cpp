@@ -210,6 +210,7 @@ Machine<Lanes> lane_machine(std::span<const Config> configs) {
   all.setup_interval = lanes_of([](const One& m) { return m.setup_interval; });
   all.step_interval = lanes_of([](const One& m) { return m.step_interval; });
   all.edge_latency = lanes_of([](const One& m) { return m.edge_latency; });
+  all.setup_latency = lanes_of([](const One& m) { return m.setup_latency; });
   all.lookup_latency = lanes_of([](const One& m) { return m.lookup_latency; });
   all.memory_latency = lanes_of([](const One& m) { return m.memory_latency; });
   return all;

@@ -70,7 +70,7 @@ class RecurrenceCore {
     decide_next_ = decide + 1;
     divider_next_ = decide + machine_.setup_interval;
     fifo(Fifo::kSetupQueue).give(decide_next_);
-    const T visible = decide + (kSetupDivideLatency + stall(StallPoint::kSetup, triangles_));
+    const T visible = decide + (machine_.setup_latency + stall(StallPoint::kSetup, triangles_));
     ++triangles_;
     const T taken = later(visible + 1, walk_next_);  // the cycle after accept
     if constexpr (Probe::kLooks) {

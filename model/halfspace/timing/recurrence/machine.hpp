@@ -39,6 +39,7 @@ struct Machine {
   std::array<T, kMostLineBytesLog2 + 1> read_cycles;  ///< by the logarithm of the bytes
   std::array<T, kMostLineBytesLog2 + 1> write_cycles;
   T setup_interval;
+  T setup_latency;  ///< from the decision to the walker
   T step_interval;
   T edge_latency;
   T lookup_latency;  ///< from the lookup to the test
@@ -58,6 +59,7 @@ inline Machine<std::uint64_t> machine(const Config& config) {
     m.write_cycles[i] = static_cast<std::uint64_t>(transfer_cycles(1 << i, config.memory.write_bytes));
   }
   m.setup_interval = static_cast<std::uint64_t>(config.setup.interval);
+  m.setup_latency = static_cast<std::uint64_t>(latency(Link::kSetup, config));
   m.step_interval = static_cast<std::uint64_t>(config.tile_walker.step_interval);
   m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
   m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));

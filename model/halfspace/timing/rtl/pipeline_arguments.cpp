@@ -2,21 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "halfspace/numerics/error.hpp"
-
 namespace halfspace::rtl {
 namespace {
 
 std::string value_text(int value) { return std::to_string(value); }
+std::string value_text(DepthInterpolator value) { return std::to_string(static_cast<int>(value)); }
 // A bit must be written as one: Verilator warns of a wider number.
 std::string value_text(bool value) { return value ? "1'b1" : "1'b0"; }
 
 }  // namespace
 
 std::vector<std::string> pipeline_arguments(const Config& config) {
-  if (config.depth.interpolator != DepthInterpolator::kBarycentric) {
-    throw InputError("configuration key 'depth.interpolator' is 'plane'; legal for the RTL: barycentric");
-  }
   std::vector<std::string> arguments;
   std::vector<std::string> parameters;
 #define NOTHING(...)

@@ -156,7 +156,8 @@ class Scoreboard {
     run_.note(&PacketTimes::accept);
     triangle_check_.compare(run_.cycle, to_packet(*triangle, walker_config_, TileSize),
                             run_.pipeline.setup_triangle());
-    equation_check_.compare(run_.cycle, to_packet(*triangle, draw->setup.depth_format),
+    equation_check_.compare(run_.cycle,
+                            to_packet(*triangle, draw->setup.depth_format, run_.config.depth.interpolator),
                             run_.pipeline.depth_equation());
     state_check_.compare(run_.cycle, expected.state, run_.pipeline.draw_state());
     const TriangleToken& token = expected.token;

@@ -7,13 +7,13 @@
 //
 // Registers are loaded only for a quad that has depth, and only those that its kind of format needs.
 
-module depth_sample
+module barycentric_sample
   import raster_pkg::*;
   import depth_pkg::*;
 (
   input  logic                      clk_i,
 
-  // What all samples of a beat share comes from depth_interpolator; the number is that of the stage that it is for.
+  // What all samples of a beat share comes from depth_barycentric; the number is that of the stage that it is for.
   // Bit i of float_i: the beat in stage i + 1 is float32.
   input  logic [9:0]                float_i,
 

@@ -1,0 +1,91 @@
+// Depth at one sample by the plane, from stage 6: the stored code of a unorm16, unorm24 or float32 surface, bit for bit
+// that of model/halfspace/units/z_test.cpp. Three registers; the last stage is wires.
+//
+// A column and a row of the tile add up to the word; the offset is added; unorm sums are shifted to codes, float32 sums
+// moved up to their top bit and rounded; both are clamped.
+
+module plane_sample
+  import raster_pkg::*;
+  import depth_pkg::*;
+(
+  input  logic                clk_i,
+
+  // Stage 6.
+  input  logic                valid_i,
+  input  logic [WordBits-1:0] column_i,
+  input  logic [WordBits-1:0] row_i,
+
+  // Stage 7: short words; the offset with half a code of unorm.
+  input  logic                short_i,
+  input  logic signed [WordBits:0] offset_i,
+
+  // Stage 8: float32; place of a unorm code's last bit in the sum.
+  input  logic                float8_i,
+  input  logic [5:0]          place_i,
+
+  // Stage 9.
+  input  logic                float9_i,
+  input  exponent_t           exponent_i,
+  input  logic [CodeBits-1:0] min_code_i,
+  input  logic [CodeBits-1:0] max_code_i,
+
+  // Stage 9. Means nothing where valid_i was low.
+  output logic [CodeBits-1:0] code_o
+);
+
+  logic [1:0] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    valid_q <= {valid_q[0], valid_i};
+  end
+
+  // 6: the word.
+  logic [WordBits-1:0] word_q;
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      word_q <= column_i + row_i;
+    end
+  end
+
+  // 7: with the offset, 0 if negative.
+  logic signed [WordBits-1:0] word;
+  logic signed [WordBits+1:0] sum;
+  logic [WordBits:0]          sum_q;
+
+  assign word = short_i ? {{(WordBits - ShortBits) {word_q[ShortBits-1]}}, word_q[ShortBits-1:0]} : word_q;
+  assign sum  = (WordBits + 2)'(word) + (WordBits + 2)'(offset_i);
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[0]) begin
+      sum_q <= sum[WordBits+1] ? '0 : sum[WordBits:0];
+    end
+  end
+
+  // 8: a unorm code; a float32 sum with its top bit at bit 63.
+  normalized_t         normal_q;
+  logic [CodeBits-1:0] unorm_q;
+  logic [WordBits:0]   unorm;
+
+  assign unorm = sum_q >> place_i;
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1] && float8_i) begin
+      normal_q <= normalize(sum_q[WordBits-1:0]);
+    end
+    if (valid_q[1] && !float8_i) begin
+      unorm_q <= unorm[WordBits:CodeBits] != '0 ? '1 : unorm[CodeBits-1:0];
+    end
+  end
+
+  // 9: the code.
+  logic [CodeBits-1:0] code;
+
+  always_comb begin
+    code   = float9_i ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
+                                                      - place_t'($signed({1'b0, normal_q.zeros})))
+                      : unorm_q;
+    code_o = code < min_code_i ? min_code_i : code > max_code_i ? max_code_i : code;
+  end
+
+endmodule

@@ -1,0 +1,101 @@
+// A step of a long division by a number whose reciprocal is known: 28 bits of the quotient.
+//
+// Three registers, one division a cycle. The top bits of the remainder times the reciprocal are the digits, or one more
+// or less; their product with the divisor is taken away; what is left says which.
+
+module quotient_digits #(
+  /// Bits of the divisor, 32 or more; its top bit is set.
+  parameter int unsigned Width = 48,
+  /// Bits of the dividend that are yet to come, 28 or more, and of the quotient that are kept.
+  parameter int unsigned Left = 112,
+  parameter int unsigned Kept = 86
+) (
+  input  logic             clk_i,
+
+  input  logic             valid_i,
+  input  logic [Width-1:0] divisor_i,
+  input  logic [31:0]      reciprocal_i, // (2^63 - 1) / the divisor's top 32 bits
+  input  logic [Width-1:0] remainder_i,  // less than the divisor
+  input  logic [Left-1:0]  dividend_i,
+  input  logic [Kept-1:0]  quotient_i,
+
+  // Three cycles later.
+  output logic [Width-1:0] remainder_o,
+  output logic [Left-1:0]  dividend_o,
+  output logic [Kept-1:0]  quotient_o
+);
+
+  localparam int unsigned Digits = 28;
+  localparam int unsigned PartBits = Width + Digits;
+
+  logic [1:0] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    valid_q <= {valid_q[0], valid_i};
+  end
+
+  // First: the estimate.
+  logic [PartBits-1:0] part;
+  logic [63:0]         estimate;
+  assign part     = {remainder_i, dividend_i[Left-1-:Digits]};
+  assign estimate = part[PartBits-1-:32] * reciprocal_i;
+
+  // What remains is less than two divisors either way, so higher bits of part and product cannot matter.
+  localparam int unsigned RestBits = Width + 2;
+  logic [Digits:0]     digits1_q, digits2_q;
+  logic [RestBits-1:0] part1_q, part2_q, product_q;
+  logic [Width-1:0]    divisor1_q, divisor2_q;
+  logic [Left-1:0]     dividend1_q, dividend2_q;
+  logic [Kept-1:0]     quotient1_q, quotient2_q;
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      digits1_q   <= estimate[63-:Digits+1];
+      part1_q     <= part[RestBits-1:0];
+      divisor1_q  <= divisor_i;
+      dividend1_q <= dividend_i << Digits;
+      quotient1_q <= quotient_i;
+    end
+  end
+
+  // Second: the product.
+  always_ff @(posedge clk_i) begin
+    if (valid_q[0]) begin
+      digits2_q   <= digits1_q;
+      product_q   <= RestBits'(digits1_q) * RestBits'(divisor1_q);
+      part2_q     <= part1_q;
+      divisor2_q  <= divisor1_q;
+      dividend2_q <= dividend1_q;
+      quotient2_q <= quotient1_q;
+    end
+  end
+
+  // Third: the remainder, with one divisor more or less where the estimate was off.
+  logic signed [RestBits-1:0] rest, less, more;
+  assign rest = part2_q - product_q;
+  assign less = part2_q - product_q - RestBits'(divisor2_q);
+  assign more = part2_q - product_q + RestBits'(divisor2_q);
+
+  logic [Kept-1:0] shifted;
+  assign shifted = quotient2_q << Digits;
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1]) begin
+      dividend_o <= dividend2_q;
+      if (rest < 0) begin
+        remainder_o <= more[Width-1:0];
+        quotient_o  <= shifted + Kept'(digits2_q) - Kept'(1);
+      end else if (less >= 0) begin
+        remainder_o <= less[Width-1:0];
+        quotient_o  <= shifted + Kept'(digits2_q) + Kept'(1);
+      end else begin
+        remainder_o <= rest[Width-1:0];
+        quotient_o  <= shifted + Kept'(digits2_q);
+      end
+    end
+  end
+
+  logic unused_rest;
+  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[63-Digits-1:0]};
+
+endmodule

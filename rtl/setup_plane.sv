@@ -1,0 +1,275 @@
+// The gradients of a triangle's depth, true quotients modulo 2^86, bit for bit those of
+// model/halfspace/units/depth_plane.cpp.
+//
+//     dx = ((z1 - z0) a1 + (z2 - z0) a2) 2^22 / 2A        dy the same with b
+//
+// One triangle a cycle. Six registers: steps of the edges, twice; differences of depth; products; sums; magnitudes.
+// They wait for the reciprocal of 2A. Then one register in which 2A has its top bit set and the numerators have moved
+// along, four steps of the division of three each, and one for the sign. Eight multipliers for the division, four for
+// the numerators.
+
+module setup_plane
+  import raster_pkg::*;
+  import setup_pkg::*;
+  import depth_pkg::*;
+(
+  input  logic          clk_i,
+  input  logic          rst_ni,
+
+  input  logic          valid_i,
+  input  coord_t [2:0]  x_i,
+  input  coord_t [2:0]  y_i,
+  input  area_t         area2_i,
+  input  shift_t        shift_i,  // area2 >> shift has 32 bits
+
+  // Two cycles later.
+  input  word_t [2:0]   words_i,
+  input  logic          short_i,
+
+  // 17 cycles later.
+  input  logic [31:0]   reciprocal_i,
+
+  // 31 cycles later.
+  output logic                                  valid_o,
+  output logic [1:0] [HalfGradientBits-1:0]     dx_o,
+  output logic [1:0] [HalfGradientBits-1:0]     dy_o
+);
+
+  localparam int unsigned Divided = 17;                  // the cycle in which the reciprocal is there
+  localparam int unsigned Steps = 4;
+  localparam int unsigned Latency = Divided + 1 + 3 * Steps + 1;
+  localparam int unsigned NumeratorBits = WordBits + StepBits;
+  localparam int unsigned DividendBits = 28 * Steps;     // holds a numerator and GradientFraction
+  localparam int unsigned ShiftedBits = DividendBits + AreaBits - 1;
+
+  typedef logic signed [WordBits:0] rise_t;
+  typedef logic signed [NumeratorBits:0] numerator_t;
+  typedef logic [NumeratorBits-1:0] magnitude_t;
+
+  logic [Latency-1:0] valid;
+  logic [Latency-1:1] valid_q;
+  assign valid = {valid_q, valid_i};
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= '0;
+      valid_o <= 1'b0;
+    end else begin
+      valid_q <= valid[Latency-2:0];
+      valid_o <= valid[Latency-1];
+    end
+  end
+
+  // Registers 1 and 2: the steps of edges 1 and 2, index 0 and 1.
+  step_t [1:0] a1_q, b1_q, a2_q, b2_q, a3_q, b3_q;
+
+  function automatic step_t difference(coord_t plus, coord_t minus);
+    return step_t'(plus) - step_t'(minus);
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid[0]) begin
+      a1_q <= {difference(y_i[0], y_i[1]), difference(y_i[2], y_i[0])};
+      b1_q <= {difference(x_i[1], x_i[0]), difference(x_i[0], x_i[2])};
+    end
+    if (valid[1]) begin
+      a2_q <= a1_q;
+      b2_q <= b1_q;
+    end
+    if (valid[2]) begin
+      a3_q <= a2_q;
+      b3_q <= b2_q;
+    end
+  end
+
+  // Register 3: differences of depth. 4: products. 5: sums. 6: magnitudes.
+  rise_t      rise1_q, rise2_q;
+  numerator_t x1_q, x2_q, y1_q, y2_q, x_q, y_q;
+
+  function automatic magnitude_t magnitude(numerator_t numerator);
+    return magnitude_t'(numerator[NumeratorBits] ? -numerator : numerator);
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid[2]) begin
+      rise1_q <= rise_t'(words_i[1]) - rise_t'(words_i[0]);
+      rise2_q <= rise_t'(words_i[2]) - rise_t'(words_i[0]);
+    end
+    if (valid[3]) begin
+      x1_q <= numerator_t'(rise1_q) * numerator_t'(a3_q[0]);
+      x2_q <= numerator_t'(rise2_q) * numerator_t'(a3_q[1]);
+      y1_q <= numerator_t'(rise1_q) * numerator_t'(b3_q[0]);
+      y2_q <= numerator_t'(rise2_q) * numerator_t'(b3_q[1]);
+    end
+    if (valid[4]) begin
+      x_q <= x1_q + x2_q;
+      y_q <= y1_q + y2_q;
+    end
+  end
+
+  // What waits for the reciprocal: from register 6 on in element 6.
+  typedef struct packed {
+    magnitude_t x;
+    magnitude_t y;
+    logic       x_negative;
+    logic       y_negative;
+  } numerators_t;
+
+  numerators_t [Divided:6]      wait_q;
+  area_t [Divided:1]            area_q;
+  shift_t [Divided:1]           shift_q;
+  logic [Latency-1:3]           short_q;
+  logic [Latency-1:Divided+1]   x_negative_q, y_negative_q;
+
+  always_ff @(posedge clk_i) begin
+    if (valid[5]) begin
+      wait_q[6] <= '{
+        x:          magnitude(x_q),
+        y:          magnitude(y_q),
+        x_negative: x_q[NumeratorBits],
+        y_negative: y_q[NumeratorBits]
+      };
+    end
+    for (int unsigned i = 7; i <= Divided; i++) begin
+      if (valid[i-1]) begin
+        wait_q[i] <= wait_q[i-1];
+      end
+    end
+    if (valid[0]) begin
+      area_q[1]  <= area2_i;
+      shift_q[1] <= shift_i;
+    end
+    for (int unsigned i = 2; i <= Divided; i++) begin
+      if (valid[i-1]) begin
+        area_q[i]  <= area_q[i-1];
+        shift_q[i] <= shift_q[i-1];
+      end
+    end
+    if (valid[2]) begin
+      short_q[3] <= short_i;
+    end
+    for (int unsigned i = 4; i < Latency; i++) begin
+      if (valid[i-1]) begin
+        short_q[i] <= short_q[i-1];
+      end
+    end
+    if (valid[Divided]) begin
+      x_negative_q[Divided+1] <= wait_q[Divided].x_negative;
+      y_negative_q[Divided+1] <= wait_q[Divided].y_negative;
+    end
+    for (int unsigned i = Divided + 2; i < Latency; i++) begin
+      if (valid[i-1]) begin
+        x_negative_q[i] <= x_negative_q[i-1];
+        y_negative_q[i] <= y_negative_q[i-1];
+      end
+    end
+  end
+
+  // The area's top bit goes to the top, and the numerators along. Their upper part is the first remainder.
+  logic [5:0] zeros;
+  assign zeros = 6'(AreaBits - 32) - shift_q[Divided];
+
+  function automatic logic [ShiftedBits-1:0] shifted(magnitude_t numerator, logic [5:0] left);
+    return (ShiftedBits'(numerator) << GradientFraction) << left;
+  endfunction
+
+  // Element i is at the begin of step i.
+  logic [31:0]             reciprocal_q [Steps];
+  logic [AreaBits-1:0]     divisor_q    [Steps];
+  logic [AreaBits-1:0]     x_remainder [Steps+1];
+  logic [AreaBits-1:0]     y_remainder [Steps+1];
+  logic [DividendBits-1:0] x_dividend [Steps+1];
+  logic [DividendBits-1:0] y_dividend [Steps+1];
+  logic [GradientBits-1:0] x_quotient [Steps+1];
+  logic [GradientBits-1:0] y_quotient [Steps+1];
+
+  assign x_quotient[0] = '0;
+  assign y_quotient[0] = '0;
+
+  always_ff @(posedge clk_i) begin
+    if (valid[Divided]) begin
+      reciprocal_q[0] <= reciprocal_i;
+      divisor_q[0]    <= area_q[Divided] << zeros;
+      {x_remainder[0], x_dividend[0]} <= {1'b0, shifted(wait_q[Divided].x, zeros)};
+      {y_remainder[0], y_dividend[0]} <= {1'b0, shifted(wait_q[Divided].y, zeros)};
+    end
+  end
+
+  for (genvar i = 0; i < Steps; i++) begin : gen_step
+    localparam int unsigned Begin = Divided + 1 + 3 * i;
+
+    quotient_digits #(
+      .Width (AreaBits),
+      .Left  (DividendBits),
+      .Kept  (GradientBits)
+    ) u_x (
+      .clk_i        (clk_i),
+      .valid_i      (valid[Begin]),
+      .divisor_i    (divisor_q[i]),
+      .reciprocal_i (reciprocal_q[i]),
+      .remainder_i  (x_remainder[i]),
+      .dividend_i   (x_dividend[i]),
+      .quotient_i   (x_quotient[i]),
+      .remainder_o  (x_remainder[i+1]),
+      .dividend_o   (x_dividend[i+1]),
+      .quotient_o   (x_quotient[i+1])
+    );
+
+    quotient_digits #(
+      .Width (AreaBits),
+      .Left  (DividendBits),
+      .Kept  (GradientBits)
+    ) u_y (
+      .clk_i        (clk_i),
+      .valid_i      (valid[Begin]),
+      .divisor_i    (divisor_q[i]),
+      .reciprocal_i (reciprocal_q[i]),
+      .remainder_i  (y_remainder[i]),
+      .dividend_i   (y_dividend[i]),
+      .quotient_i   (y_quotient[i]),
+      .remainder_o  (y_remainder[i+1]),
+      .dividend_o   (y_dividend[i+1]),
+      .quotient_o   (y_quotient[i+1])
+    );
+
+    if (i + 1 < Steps) begin : gen_hand_on
+      logic [31:0]         reciprocal1_q, reciprocal2_q;
+      logic [AreaBits-1:0] divisor1_q, divisor2_q;
+
+      always_ff @(posedge clk_i) begin
+        if (valid[Begin]) begin
+          reciprocal1_q <= reciprocal_q[i];
+          divisor1_q    <= divisor_q[i];
+        end
+        if (valid[Begin+1]) begin
+          reciprocal2_q <= reciprocal1_q;
+          divisor2_q    <= divisor1_q;
+        end
+        if (valid[Begin+2]) begin
+          reciprocal_q[i+1] <= reciprocal2_q;
+          divisor_q[i+1]    <= divisor2_q;
+        end
+      end
+    end
+  end
+
+  // Last: short words need fewer bits, and the sign comes back.
+  function automatic logic [GradientBits-1:0] signed_gradient(logic [GradientBits-1:0] quotient,
+                                                              logic negative, logic is_short);
+    logic [GradientBits-1:0] cut, gradient;
+    cut      = is_short ? quotient >> ShortBits : quotient;
+    gradient = negative ? -cut : cut;
+    return is_short ? GradientBits'(gradient[ShortGradientBits-1:0]) : gradient;
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid[Latency-1]) begin
+      dx_o <= signed_gradient(x_quotient[Steps], x_negative_q[Latency-1], short_q[Latency-1]);
+      dy_o <= signed_gradient(y_quotient[Steps], y_negative_q[Latency-1], short_q[Latency-1]);
+    end
+  end
+
+  logic unused_rest;
+  assign unused_rest = ^{x_remainder[Steps], y_remainder[Steps], x_dividend[Steps], y_dividend[Steps]};
+
+endmodule
