@@ -1,5 +1,5 @@
-// Depth at one sample by barycentric weights, in ten stages: the stored code of a unorm16, unorm24 or float32 surface,
-// bit for bit that of model/halfspace/units/depth_barycentric.hpp. Nine registers; the last stage is wires.
+// Depth at one sample by barycentric weights, in 13 stages: the stored code of a unorm16, unorm24 or float32 surface,
+// bit for bit that of model/halfspace/units/depth_barycentric.hpp. Twelve registers; the last stage is wires.
 //
 // unorm: z0 + w1 (z1 - z0) + w2 (z2 - z0), w_i = E_i / 2A by the reciprocal of 2A, and the offset, rounded and clamped.
 // float32: the sum of the three E_i z_i, aligned to the largest; times the reciprocal; with the offset, if there is one,
@@ -15,7 +15,7 @@ module barycentric_sample
 
   // What all samples of a beat share comes from depth_barycentric; the number is that of the stage that it is for.
   // Bit i of float_i: the beat in stage i + 1 is float32.
-  input  logic [9:0]                float_i,
+  input  logic [12:0]               float_i,
 
   // Stage 1: this sample is to be computed; unbiased E of edges 1 and 2 at the first sample of its quad, and how much
   // more they are at this one.
@@ -40,27 +40,28 @@ module barycentric_sample
   input  logic signed [31:0]        difference2_i,
   input  logic [2:0]                negative_i,
 
-  // Stage 6: unorm16 and not unorm24; bits that the vertices' depths have lost; z0 on the scale of the terms, with
-  // the offset and half a code for the rounding.
+  // Stage 6: z0 on the scale of the terms, with the offset and half a code for the rounding.
+  input  logic signed [63:0]        base_i,
+
+  // Stage 7: unorm16 and not unorm24; bits that the vertices' depths have lost.
   input  logic                      unorm16_i,
   input  logic [4:0]                cut_i,
-  input  logic signed [63:0]        base_i,
-  input  logic [CodeBits-1:0]       min_code6_i,
-  input  logic [CodeBits-1:0]       max_code6_i,
-  input  shift_t                    shift6_i,
+  input  logic [CodeBits-1:0]       min_code7_i,
+  input  logic [CodeBits-1:0]       max_code7_i,
+  input  shift_t                    shift7_i,
 
-  // Stage 7.
+  // Stage 8.
   input  logic [ReciprocalBits-1:0] reciprocal_i,
 
-  // Stage 8: the offset as a word.
+  // Stages 9 and 10: the offset as a word.
+  input  exponent_t                 exponent9_i,
   input  word_t                     offset_i,
-  input  exponent_t                 exponent8_i,
 
-  // Stage 10.
-  input  logic [CodeBits-1:0]       min_code10_i,
-  input  logic [CodeBits-1:0]       max_code10_i,
+  // Stage 13.
+  input  logic [CodeBits-1:0]       min_code13_i,
+  input  logic [CodeBits-1:0]       max_code13_i,
 
-  // Stage 10. Means nothing where valid_i was low.
+  // Stage 13. Means nothing where valid_i was low.
   output logic [CodeBits-1:0]       code_o
 );
 
@@ -68,11 +69,11 @@ module barycentric_sample
   localparam place_t LeastPlace = {1'b1, {(PlaceBits - 1) {1'b0}}};
 
   // Stages whose registers are loaded.
-  logic [9:0] valid, is_float, is_unorm;
-  logic [8:0] valid_q;
+  logic [12:0] valid, is_float, is_unorm;
+  logic [11:0] valid_q;
 
   always_ff @(posedge clk_i) begin
-    valid_q <= valid[8:0];
+    valid_q <= valid[11:0];
   end
 
   assign valid    = {valid_q, valid_i};
@@ -153,10 +154,10 @@ module barycentric_sample
     end
   end
 
-  // 5: unorm terms; the float32 sum on the scale of its largest product.
-  logic signed [63:0] term1_q, term2_q;
+  // 5: unorm terms; float32 products on the scale of the largest. 6: their sums.
+  logic signed [63:0] term0_q, term1_q, term2_q;
   logic signed [63:0] sum_q;
-  place_t             top_q;
+  place_t             top5_q, top6_q;
 
   function automatic logic signed [63:0] term(logic [WeightBits:0] weight,
                                               logic signed [31:0] difference);
@@ -184,18 +185,27 @@ module barycentric_sample
       automatic place_t top0 = larger(LeastPlace, product0_q, exponent4_0_q);
       automatic place_t top1 = larger(top0, product1_q, exponent4_1_q);
       automatic place_t top = larger(top1, product2_q, exponent4_2_q);
-      sum_q <= aligned(product0_q, negative_i[0], exponent4_0_q, top)
-               + aligned(product1_q, negative_i[1], exponent4_1_q, top)
-               + aligned(product2_q, negative_i[2], exponent4_2_q, top);
-      top_q <= top;
+      term0_q <= aligned(product0_q, negative_i[0], exponent4_0_q, top);
+      term1_q <= aligned(product1_q, negative_i[1], exponent4_1_q, top);
+      term2_q <= aligned(product2_q, negative_i[2], exponent4_2_q, top);
+      top5_q  <= top;
     end
   end
 
-  // 6: the unorm code; the magnitude of the float32 sum with its top bit at bit 31.
-  logic [CodeBits-1:0] unorm6_q, unorm7_q, unorm8_q, unorm9_q;
+  always_ff @(posedge clk_i) begin
+    if (valid[5]) begin
+      sum_q <= (is_float[5] ? term0_q : base_i) + term1_q + term2_q;
+    end
+    if (is_float[5]) begin
+      top6_q <= top5_q;
+    end
+  end
+
+  // 7: the unorm code; the magnitude of the float32 sum with its top bit at bit 31.
+  logic [CodeBits-1:0] unorm7_q, unorm8_q, unorm9_q, unorm10_q, unorm11_q, code_q;
   logic [31:0]         mantissa_q;
-  place_t              place6_q, place7_q, place8_q, place9_q;
-  logic                negative6_q, negative7_q;
+  place_t              place7_q, place8_q, place9_q, place10_q, place11_q;
+  logic                negative7_q, negative8_q;
 
   function automatic logic [CodeBits-1:0] clamped(logic signed [63:0] code,
                                                   logic [CodeBits-1:0] low,
@@ -207,90 +217,97 @@ module barycentric_sample
   endfunction
 
   always_ff @(posedge clk_i) begin
-    if (is_unorm[5]) begin
-      automatic logic signed [63:0] sum = base_i + term1_q + term2_q;
-      unorm6_q <= clamped(sum >>> ((unorm16_i ? 6'd45 : 6'd37) - 6'(cut_i)), min_code6_i, max_code6_i);
-    end
-    if (is_float[5]) begin
-      automatic normalized_t normal = normalize(sum_q[63] ? -sum_q : sum_q);
-      mantissa_q  <= normal.value[63:32];
-      negative6_q <= sum_q[63];
-      place6_q    <= top_q + place_t'(32 - 63) - place_t'($signed({1'b0, normal.zeros}))
-                     - place_t'(shift6_i);
-    end
-  end
-
-  // 7: divided by 2A. Both factors have their top bit set, or are 0.
-  logic [63:0] quotient_q;
-
-  always_ff @(posedge clk_i) begin
     if (is_unorm[6]) begin
-      unorm7_q <= unorm6_q;
+      unorm7_q <= clamped(sum_q >>> ((unorm16_i ? 6'd45 : 6'd37) - 6'(cut_i)), min_code7_i, max_code7_i);
     end
     if (is_float[6]) begin
-      quotient_q  <= mantissa_q * reciprocal_i;
-      negative7_q <= negative6_q;
-      place7_q    <= place6_q;
+      automatic normalized_t normal = normalize(sum_q[63] ? -sum_q : sum_q);
+      mantissa_q  <= normal.value[63:32];
+      negative7_q <= sum_q[63];
+      place7_q    <= top6_q + place_t'(32 - 63) - place_t'($signed({1'b0, normal.zeros}))
+                     - place_t'(shift7_i);
     end
   end
 
-  // 8: with the offset, both as words; 0 if negative.
-  logic [63:0] depth8_q;
-  word_t       word;
-  logic signed [WordBits:0] moved;
-  place_t      to_word, word_place;
-
-  always_comb begin
-    word_place = place_t'(exponent8_i) - place_t'(63);
-    to_word    = word_place - place7_q;
-    word       = to_word < place_t'(64) ? word_t'(quotient_q >> to_word[5:0]) : '0;
-    word       = negative7_q ? -word : word;
-    moved      = (WordBits + 1)'(word) + (WordBits + 1)'(offset_i);
-  end
+  // 8: divided by 2A. Both factors have their top bit set, or are 0.
+  logic [63:0] quotient_q;
 
   always_ff @(posedge clk_i) begin
     if (is_unorm[7]) begin
       unorm8_q <= unorm7_q;
     end
     if (is_float[7]) begin
-      if (offset_i != '0) begin
-        depth8_q <= moved[WordBits] ? '0 : moved[WordBits-1:0];
-        place8_q <= word_place;
-      end else begin
-        depth8_q <= negative7_q ? '0 : quotient_q;
-        place8_q <= place7_q;
-      end
+      quotient_q  <= mantissa_q * reciprocal_i;
+      negative8_q <= negative7_q;
+      place8_q    <= place7_q;
     end
   end
 
-  // 9: with its top bit at bit 63.
+  // 9: as a word, and as it is, 0 if negative.
   logic [63:0] depth9_q;
+  word_t       word_q;
+  place_t      to_word, word_place, word_place_q;
+
+  assign word_place = place_t'(exponent9_i) - place_t'(63);
+  assign to_word    = word_place - place8_q;
 
   always_ff @(posedge clk_i) begin
     if (is_unorm[8]) begin
       unorm9_q <= unorm8_q;
     end
     if (is_float[8]) begin
-      automatic normalized_t normal = normalize(depth8_q);
-      depth9_q <= normal.value;
-      place9_q <= place8_q - place_t'($signed({1'b0, normal.zeros}));
+      automatic word_t word = to_word < place_t'(64) ? word_t'(quotient_q >> to_word[5:0]) : '0;
+      word_q       <= negative8_q ? -word : word;
+      word_place_q <= word_place;
+      depth9_q     <= negative8_q ? '0 : quotient_q;
+      place9_q     <= place8_q;
     end
   end
 
-  // 10: the nearest float.
-  logic [CodeBits-1:0] float_code;
+  // 10: with the offset, if there is one.
+  logic [63:0]              depth10_q;
+  logic signed [WordBits:0] moved;
+  assign moved = (WordBits + 1)'(word_q) + (WordBits + 1)'(offset_i);
 
-  always_comb begin
-    code_o     = unorm9_q;
-    float_code = '0;
+  always_ff @(posedge clk_i) begin
+    if (is_unorm[9]) begin
+      unorm10_q <= unorm9_q;
+    end
     if (is_float[9]) begin
-      float_code = nearest_float(depth9_q, place9_q);
-      code_o     = float_code < min_code10_i ? min_code10_i
-                   : float_code > max_code10_i ? max_code10_i : float_code;
+      if (offset_i != '0) begin
+        depth10_q <= moved[WordBits] ? '0 : moved[WordBits-1:0];
+        place10_q <= word_place_q;
+      end else begin
+        depth10_q <= depth9_q;
+        place10_q <= place9_q;
+      end
     end
   end
+
+  // 11: with its top bit at bit 63.
+  logic [63:0] depth11_q;
+
+  always_ff @(posedge clk_i) begin
+    if (is_unorm[10]) begin
+      unorm11_q <= unorm10_q;
+    end
+    if (is_float[10]) begin
+      automatic normalized_t normal = normalize(depth10_q);
+      depth11_q <= normal.value;
+      place11_q <= place10_q - place_t'($signed({1'b0, normal.zeros}));
+    end
+  end
+
+  // 12: the nearest float. 13: kept within the range.
+  always_ff @(posedge clk_i) begin
+    if (valid[11]) begin
+      code_q <= is_float[11] ? nearest_float(depth11_q, place11_q) : unorm11_q;
+    end
+  end
+
+  assign code_o = code_q < min_code13_i ? min_code13_i : code_q > max_code13_i ? max_code13_i : code_q;
 
   logic unused_valid;
-  assign unused_valid = ^{is_float[1:0], is_unorm[1:0], is_unorm[3], is_unorm[9]};
+  assign unused_valid = ^{is_float[12], is_float[1:0], is_unorm[12:11], is_unorm[5], is_unorm[3], is_unorm[1:0]};
 
 endmodule

@@ -1,5 +1,5 @@
 // Depth at the samples of a beat by barycentric weights: barycentric_sample for each, and what they share, each part of
-// it computed in the cycle before the stage that needs it. Latency is 9 cycles; a beat a cycle; nothing stalls.
+// it computed in the cycle before the stage that needs it. Latency is 12 cycles; a beat a cycle; nothing stalls.
 
 module depth_barycentric
   import raster_pkg::*;
@@ -23,7 +23,7 @@ module depth_barycentric
   output logic [4*Quads-1:0] [CodeBits-1:0]     code_o
 );
 
-  localparam int unsigned Stages = 10;
+  localparam int unsigned Stages = 13;
   localparam int unsigned QuadLog2 = TileLog2 - 1;
   localparam int unsigned WeightBits = 30; // as in barycentric_sample
   localparam logic [FormatBits-1:0] Unorm16 = 1;
@@ -74,18 +74,18 @@ module depth_barycentric
   endfunction
 
   // What is only handed on.
-  logic [6:0] [ReciprocalBits-1:0]       reciprocal;
-  logic [5:0] [ReciprocalBits-1:0]       reciprocal_q;
-  logic [5:0] [ShiftBits-1:0]            shift;
-  logic [4:0] [ShiftBits-1:0]            shift_q;
+  logic [7:0] [ReciprocalBits-1:0]       reciprocal;
+  logic [6:0] [ReciprocalBits-1:0]       reciprocal_q;
+  logic [6:0] [ShiftBits-1:0]            shift;
+  logic [5:0] [ShiftBits-1:0]            shift_q;
   logic [Stages-1:0] [CodeBits-1:0]      min_code, max_code;
   logic [Stages-2:0] [CodeBits-1:0]      min_code_q, max_code_q;
-  word_t [7:0]                           offset;
-  word_t [6:0]                           offset_q;
-  exponent_t [7:0]                       exponent;
-  exponent_t [6:0]                       exponent_q;
-  logic [5:0] [4:0]                      cut;
-  logic [4:0] [4:0]                      cut_q;
+  word_t [9:0]                           offset;
+  word_t [8:0]                           offset_q;
+  exponent_t [8:0]                       exponent;
+  exponent_t [7:0]                       exponent_q;
+  logic [6:0] [4:0]                      cut;
+  logic [5:0] [4:0]                      cut_q;
   logic [4:1] [2:0] [CodeBits-1:0]       z_q;
 
   // Depths beyond [0, 1] lose bits, so that the difference of two has 32 all the same.
@@ -108,24 +108,28 @@ module depth_barycentric
         max_code_q[i] <= max_code[i];
       end
     end
-    for (int unsigned i = 0; i < 6; i++) begin
+    for (int unsigned i = 0; i < 7; i++) begin
       if (valid[i]) begin
         reciprocal_q[i] <= reciprocal[i];
       end
     end
-    for (int unsigned i = 0; i < 5; i++) begin
+    for (int unsigned i = 0; i < 6; i++) begin
       if (valid[i]) begin
         shift_q[i] <= shift[i];
       end
     end
-    for (int unsigned i = 0; i < 5; i++) begin
+    for (int unsigned i = 0; i < 6; i++) begin
       if (valid[i]) begin
         cut_q[i] <= cut[i];
       end
     end
-    for (int unsigned i = 0; i < 7; i++) begin
+    for (int unsigned i = 0; i < 9; i++) begin
       if (valid[i]) begin
-        offset_q[i]   <= offset[i];
+        offset_q[i] <= offset[i];
+      end
+    end
+    for (int unsigned i = 0; i < 8; i++) begin
+      if (valid[i]) begin
         exponent_q[i] <= exponent[i];
       end
     end
@@ -198,17 +202,17 @@ module depth_barycentric
         .difference1_i (difference1_q),
         .difference2_i (difference2_q),
         .negative_i    (negative_q),
-        .unorm16_i     (is_unorm16[5]),
-        .cut_i         (cut[5]),
         .base_i        (base_q),
-        .min_code6_i   (min_code[5]),
-        .max_code6_i   (max_code[5]),
-        .shift6_i      (shift[5]),
-        .reciprocal_i  (reciprocal[6]),
-        .offset_i      (offset[7]),
-        .exponent8_i   (exponent[7]),
-        .min_code10_i  (min_code[9]),
-        .max_code10_i  (max_code[9]),
+        .unorm16_i     (is_unorm16[6]),
+        .cut_i         (cut[6]),
+        .min_code7_i   (min_code[6]),
+        .max_code7_i   (max_code[6]),
+        .shift7_i      (shift[6]),
+        .reciprocal_i  (reciprocal[7]),
+        .exponent9_i   (exponent[8]),
+        .offset_i      (offset[9]),
+        .min_code13_i  (min_code[12]),
+        .max_code13_i  (max_code[12]),
         .code_o        (code[4*q+s])
       );
     end
@@ -217,7 +221,7 @@ module depth_barycentric
   assign code_o = has_depth[Stages-1] ? code : '0;
 
   logic unused_valid;
-  assign unused_valid = ^{valid[9], is_unorm16[9:6], equation_i.dx, equation_i.dy, equation_i.word,
+  assign unused_valid = ^{valid[12], is_unorm16[12:7], equation_i.dx, equation_i.dy, equation_i.word,
                           equation_i.x, equation_i.y};
 
 endmodule

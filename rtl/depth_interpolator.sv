@@ -8,8 +8,8 @@ module depth_interpolator
   parameter int unsigned Quads = TestWidth,
   /// 0 plane, 1 barycentric.
   parameter int unsigned Interpolator = Plane,
-  /// Cycles to the codes, 9 or more. Those above are registers at the end.
-  parameter int unsigned Latency = 9
+  /// Cycles to the codes, 12 or more. Those above are registers at the end.
+  parameter int unsigned Latency = 12
 ) (
   input  logic                                  clk_i,
 
@@ -28,7 +28,7 @@ module depth_interpolator
   output logic [4*Quads-1:0] [CodeBits-1:0]     code_o
 );
 
-  localparam int unsigned Least = 9;
+  localparam int unsigned Least = 12;
   localparam int unsigned Extra = Latency - Least;
 
   logic [4*Quads-1:0] [CodeBits-1:0] code;

@@ -1,8 +1,8 @@
 // Depth at the samples of a beat by the plane modulo a power of two: products for the tile, additions for the samples.
 //
-// Stages: 1 the way from vertex 0; 2 products, and the steps for a pixel; 3 their sum; 4 the tile's origin, multiples of
-// the steps; 5 all columns and rows of the tile; 6 to 9 plane_sample. Eight registers, and one at the end, so latency is 9
-// cycles; a beat a cycle; nothing stalls.
+// Stages: 1 the way from vertex 0; 2 products of its halves, and the steps for a pixel; 3 products; 4 their sum; 5 the
+// word of the origin; 6 its place in the square, and multiples of the steps; 7 all columns and rows of the tile; 8 to 12
+// plane_sample. Latency is 12 cycles; a beat a cycle; nothing stalls.
 
 module depth_plane
   import raster_pkg::*;
@@ -27,7 +27,7 @@ module depth_plane
   output logic [4*Quads-1:0] [CodeBits-1:0]     code_o
 );
 
-  localparam int unsigned Stages = 9;
+  localparam int unsigned Stages = 12;
   localparam int unsigned QuadLog2 = TileLog2 - 1;
   localparam logic [FormatBits-1:0] Unorm16 = 1;
   localparam logic [FormatBits-1:0] Float32 = 4;
@@ -79,10 +79,12 @@ module depth_plane
 
   typedef logic [AnchorLog2-1:0] place_in_anchor_t;
 
-  step_t            right_q, down_q;
-  place_in_anchor_t x1_q, y1_q, x2_q, y2_q, x3_q, y3_q;
+  step_t     right_q, down_q;
   gradient_t dx1_q, dy1_q;
-  word_t     word1_q, word2_q;
+
+  // What goes along from stage 1 to stage 5; element i is of stage i + 1.
+  word_t [3:1]            word_q;
+  place_in_anchor_t [5:1] x_q, y_q;
 
   function automatic logic [PixelBits-1:0] first_pixel(logic [TileCoordBits-1:0] tile);
     return {tile, {TileLog2{1'b0}}};
@@ -99,55 +101,80 @@ module depth_plane
     if (valid[0]) begin
       right_q <= centre(x_first[PixelBits-1:AnchorLog2]) - step_t'(equation_i.x);
       down_q  <= centre(y_first[PixelBits-1:AnchorLog2]) - step_t'(equation_i.y);
-      x1_q    <= x_first[AnchorLog2-1:0];
-      y1_q    <= y_first[AnchorLog2-1:0];
       dx1_q   <= equation_i.dx;
       dy1_q   <= equation_i.dy;
-      word1_q <= equation_i.word;
     end
   end
 
-  // 2: products; the words nearest to the steps for a pixel, which leave the upper bits of gradients alone.
-  gradient_t across_q, along_y_q;
-  modular_t  dx2_q, dy2_q, dx3_q, dy3_q;
+  always_ff @(posedge clk_i) begin
+    if (valid[0]) begin
+      word_q[1] <= equation_i.word;
+      x_q[1]    <= x_first[AnchorLog2-1:0];
+      y_q[1]    <= y_first[AnchorLog2-1:0];
+    end
+    for (int unsigned i = 2; i <= 5; i++) begin
+      if (valid[i-1]) begin
+        x_q[i] <= x_q[i-1];
+        y_q[i] <= y_q[i-1];
+      end
+    end
+    for (int unsigned i = 2; i <= 3; i++) begin
+      if (valid[i-1]) begin
+        word_q[i] <= word_q[i-1];
+      end
+    end
+  end
 
+  // 2: products with the halves of the way, the upper one with the sign; the words nearest to the steps for a pixel, which
+  // leave the upper bits of gradients alone. 3: products.
+  localparam int unsigned HalfBits = StepBits / 2;
   localparam int unsigned StepFraction = GradientFraction - SubPixelBits;
+
+  gradient_t       x_low_q, x_high_q, y_low_q, y_high_q, across_q, along_y_q;
+  modular_t [5:2]  dx_q, dy_q;
 
   function automatic modular_t nearest_step(logic [WordBits+StepFraction-1:0] gradient);
     return modular_t'(gradient >> StepFraction) + modular_t'(gradient[StepFraction-1]);
   endfunction
+  typedef logic signed [StepBits-HalfBits-1:0] high_t;
 
   always_ff @(posedge clk_i) begin
     if (valid[1]) begin
-      across_q  <= dx1_q * gradient_t'(right_q);
-      along_y_q <= dy1_q * gradient_t'(down_q);
-      dx2_q     <= nearest_step(dx1_q[WordBits+StepFraction-1:0]);
-      dy2_q     <= nearest_step(dy1_q[WordBits+StepFraction-1:0]);
-      word2_q   <= word1_q;
-      x2_q      <= x1_q;
-      y2_q      <= y1_q;
+      x_low_q  <= dx1_q * gradient_t'(right_q[HalfBits-1:0]);
+      x_high_q <= dx1_q * gradient_t'(high_t'(right_q[StepBits-1:HalfBits]));
+      y_low_q  <= dy1_q * gradient_t'(down_q[HalfBits-1:0]);
+      y_high_q <= dy1_q * gradient_t'(high_t'(down_q[StepBits-1:HalfBits]));
+      dx_q[2]  <= nearest_step(dx1_q[WordBits+StepFraction-1:0]);
+      dy_q[2]  <= nearest_step(dy1_q[WordBits+StepFraction-1:0]);
+    end
+    for (int unsigned i = 3; i <= 5; i++) begin
+      if (valid[i-1]) begin
+        dx_q[i] <= dx_q[i-1];
+        dy_q[i] <= dy_q[i-1];
+      end
+    end
+    if (valid[2]) begin
+      across_q  <= x_low_q + (x_high_q << HalfBits);
+      along_y_q <= y_low_q + (y_high_q << HalfBits);
     end
   end
 
-  // 3: the word nearest to it.
-  modular_t origin_q;
-
-  gradient_t origin;
-  assign origin = {word2_q, {GradientFraction{1'b0}}} + across_q + along_y_q;
+  // 4: their sum. 5: the word nearest to it.
+  gradient_t origin4_q;
+  modular_t  origin5_q;
 
   always_ff @(posedge clk_i) begin
-    if (valid[2]) begin
-      origin_q <= modular_t'(origin >> GradientFraction) + modular_t'(origin[GradientFraction-1]);
-      x3_q     <= x2_q;
-      y3_q     <= y2_q;
-      dx3_q    <= dx2_q;
-      dy3_q    <= dy2_q;
+    if (valid[3]) begin
+      origin4_q <= {word_q[3], {GradientFraction{1'b0}}} + across_q + along_y_q;
+    end
+    if (valid[4]) begin
+      origin5_q <= modular_t'(origin4_q >> GradientFraction) + modular_t'(origin4_q[GradientFraction-1]);
     end
   end
 
-  // 4 and 5: columns and rows of the tile; the origin is in the rows.
+  // 6 and 7: columns and rows of the tile; the origin is in the rows.
   modular_t [TileSize-1:0] column_q, row_q;
-  modular_t                origin4_q, dx4_q;
+  modular_t                origin6_q, dx6_q;
 
   function automatic modular_t multiple(modular_t step, int unsigned times);
     modular_t sum;
@@ -172,52 +199,52 @@ module depth_plane
     return sum;
   endfunction
 
-  modular_t [TileSize-1:0] down4_q;
+  modular_t [TileSize-1:0] down6_q;
 
   always_ff @(posedge clk_i) begin
-    if (valid[3]) begin
-      origin4_q <= origin_q + place_in_anchor(dx3_q, x3_q) + place_in_anchor(dy3_q, y3_q);
-      dx4_q     <= dx3_q;
+    if (valid[5]) begin
+      origin6_q <= origin5_q + place_in_anchor(dx_q[5], x_q[5]) + place_in_anchor(dy_q[5], y_q[5]);
+      dx6_q     <= dx_q[5];
       for (int unsigned i = 0; i < TileSize; i++) begin
-        down4_q[i] <= multiple(dy3_q, i);
+        down6_q[i] <= multiple(dy_q[5], i);
       end
     end
-    if (valid[4]) begin
+    if (valid[6]) begin
       for (int unsigned i = 0; i < TileSize; i++) begin
-        column_q[i] <= multiple(dx4_q, i);
-        row_q[i]    <= origin4_q + down4_q[i];
+        column_q[i] <= multiple(dx6_q, i);
+        row_q[i]    <= origin6_q + down6_q[i];
       end
     end
   end
 
-  // For stage 7: the offset, on unorm surfaces with half a code. For stage 8: where a unorm code begins.
+  // For stage 9: the offset, on unorm surfaces with half a code. For stage 10: where a unorm code begins.
   logic                     short_q;
   logic signed [WordBits:0] offset_q;
-  logic [5:0]               place7_q, place8_q;
+  logic [5:0]               place9_q, place10_q;
 
   // Places below a code: 15 or 7 of a vertex depth, and those that a long word has more.
   logic [5:0] more, place;
-  assign more  = along[5].beyond ? 6'd32 - 6'(along[5].exponent) : '0;
-  assign place = (along[5].is_unorm16 ? 6'd15 : 6'd7) + more;
+  assign more  = along[7].beyond ? 6'd32 - 6'(along[7].exponent) : '0;
+  assign place = (along[7].is_unorm16 ? 6'd15 : 6'd7) + more;
 
   always_ff @(posedge clk_i) begin
-    if (valid[5]) begin
-      short_q  <= !along[5].is_float && !along[5].beyond;
-      place7_q <= place;
-      offset_q <= along[5].is_float
-                  ? (WordBits + 1)'(along[5].offset)
-                  : ((WordBits + 1)'(along[5].offset) <<< more) + (65'sd1 <<< (place - 6'd1));
+    if (valid[7]) begin
+      short_q  <= !along[7].is_float && !along[7].beyond;
+      place9_q <= place;
+      offset_q <= along[7].is_float
+                  ? (WordBits + 1)'(along[7].offset)
+                  : ((WordBits + 1)'(along[7].offset) <<< more) + (65'sd1 <<< (place - 6'd1));
     end
-    if (valid[6]) begin
-      place8_q <= place7_q;
+    if (valid[8]) begin
+      place10_q <= place9_q;
     end
   end
 
   // The quads wait for their tile.
-  logic [5:0] [Quads-1:0] [QuadIndexBits-1:0] index;
-  logic [4:0] [Quads-1:0] [QuadIndexBits-1:0] index_q;
-  logic [5:0] [Quads-1:0]                     any;
-  logic [4:0] [Quads-1:0]                     any_q;
+  logic [7:0] [Quads-1:0] [QuadIndexBits-1:0] index;
+  logic [6:0] [Quads-1:0] [QuadIndexBits-1:0] index_q;
+  logic [7:0] [Quads-1:0]                     any;
+  logic [6:0] [Quads-1:0]                     any_q;
   logic [Quads-1:0]                           any_in;
 
   for (genvar q = 0; q < Quads; q++) begin : gen_any
@@ -228,7 +255,7 @@ module depth_plane
   assign any   = {any_q, any_in};
 
   always_ff @(posedge clk_i) begin
-    for (int unsigned i = 0; i < 5; i++) begin
+    for (int unsigned i = 0; i < 7; i++) begin
       if (valid[i]) begin
         index_q[i] <= index[i];
         any_q[i]   <= any[i];
@@ -240,32 +267,36 @@ module depth_plane
 
   for (genvar q = 0; q < Quads; q++) begin : gen_quad
     logic quad_valid;
-    assign quad_valid = valid[5] & along[5].has_depth & any[5][q];
+    assign quad_valid = valid[7] & along[7].has_depth & any[7][q];
     for (genvar s = 0; s < 4; s++) begin : gen_sample
       plane_sample u_sample (
         .clk_i      (clk_i),
         .valid_i    (quad_valid),
-        .column_i   (column_q[{index[5][q][QuadLog2-1:0], 1'(s % 2)}]),
-        .row_i      (row_q[{index[5][q][QuadIndexBits-1:QuadLog2], 1'(s / 2)}]),
+        .column_i   (column_q[{index[7][q][QuadLog2-1:0], 1'(s % 2)}]),
+        .row_i      (row_q[{index[7][q][QuadIndexBits-1:QuadLog2], 1'(s / 2)}]),
         .short_i    (short_q),
         .offset_i   (offset_q),
-        .float8_i   (along[7].is_float),
-        .place_i    (place8_q),
-        .float9_i   (along[8].is_float),
-        .exponent_i (along[8].exponent),
-        .min_code_i (along[8].min_code),
-        .max_code_i (along[8].max_code),
+        .float10_i  (along[9].is_float),
+        .place_i    (place10_q),
+        .float11_i  (along[10].is_float),
+        .exponent_i (along[10].exponent),
+        .min_code_i (along[11].min_code),
+        .max_code_i (along[11].max_code),
         .code_o     (code[4*q+s])
       );
     end
   end
 
+  logic has_depth_q;
+
   always_ff @(posedge clk_i) begin
-    code_o <= along[8].has_depth ? code : '0;
+    has_depth_q <= along[11].has_depth;
   end
 
+  assign code_o = has_depth_q ? code : '0;
+
   logic unused;
-  assign unused = ^{valid[8:7], equation_i.a, equation_i.b, equation_i.z, equation_i.bias, equation_i.area2,
+  assign unused = ^{valid[11:9], equation_i.a, equation_i.b, equation_i.z, equation_i.bias, equation_i.area2,
                     equation_i.reciprocal, equation_i.shift};
 
 endmodule

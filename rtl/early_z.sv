@@ -18,8 +18,8 @@ module early_z
   parameter int unsigned FifoDepth = 16,
   /// Interpolator of depth, 0 plane or 1 barycentric.
   parameter int unsigned Interpolator = Plane,
-  /// Cycles to interpolate depth, 9 or more.
-  parameter int unsigned InterpolatorLatency = 9,
+  /// Cycles to interpolate depth, 12 or more.
+  parameter int unsigned InterpolatorLatency = 12,
   /// Lines of the z cache, a power of two, at least ZParts * Ways.
   parameter int unsigned Lines = 128,
   /// Lines of a set: a power of two.

@@ -1,5 +1,5 @@
-// Depth at one sample by the plane, from stage 6: the stored code of a unorm16, unorm24 or float32 surface, bit for bit
-// that of model/halfspace/units/z_test.cpp. Three registers; the last stage is wires.
+// Depth at one sample by the plane, from stage 8: the stored code of a unorm16, unorm24 or float32 surface, bit for bit
+// that of model/halfspace/units/z_test.cpp. Five registers.
 //
 // A column and a row of the tile add up to the word; the offset is added; unorm sums are shifted to codes, float32 sums
 // moved up to their top bit and rounded; both are clamped.
@@ -10,36 +10,38 @@ module plane_sample
 (
   input  logic                clk_i,
 
-  // Stage 6.
+  // Stage 8.
   input  logic                valid_i,
   input  logic [WordBits-1:0] column_i,
   input  logic [WordBits-1:0] row_i,
 
-  // Stage 7: short words; the offset with half a code of unorm.
+  // Stage 9: short words; the offset with half a code of unorm.
   input  logic                short_i,
   input  logic signed [WordBits:0] offset_i,
 
-  // Stage 8: float32; place of a unorm code's last bit in the sum.
-  input  logic                float8_i,
+  // Stage 10: float32; place of a unorm code's last bit in the sum.
+  input  logic                float10_i,
   input  logic [5:0]          place_i,
 
-  // Stage 9.
-  input  logic                float9_i,
+  // Stage 11.
+  input  logic                float11_i,
   input  exponent_t           exponent_i,
+
+  // Stage 12.
   input  logic [CodeBits-1:0] min_code_i,
   input  logic [CodeBits-1:0] max_code_i,
 
-  // Stage 9. Means nothing where valid_i was low.
+  // After stage 12. Means nothing where valid_i was low.
   output logic [CodeBits-1:0] code_o
 );
 
-  logic [1:0] valid_q;
+  logic [3:0] valid_q;
 
   always_ff @(posedge clk_i) begin
-    valid_q <= {valid_q[0], valid_i};
+    valid_q <= {valid_q[2:0], valid_i};
   end
 
-  // 6: the word.
+  // 8: the word.
   logic [WordBits-1:0] word_q;
 
   always_ff @(posedge clk_i) begin
@@ -48,7 +50,7 @@ module plane_sample
     end
   end
 
-  // 7: with the offset, 0 if negative.
+  // 9: with the offset, 0 if negative.
   logic signed [WordBits-1:0] word;
   logic signed [WordBits+1:0] sum;
   logic [WordBits:0]          sum_q;
@@ -62,7 +64,7 @@ module plane_sample
     end
   end
 
-  // 8: a unorm code; a float32 sum with its top bit at bit 63.
+  // 10: a unorm code; a float32 sum with its top bit at bit 63.
   normalized_t         normal_q;
   logic [CodeBits-1:0] unorm_q;
   logic [WordBits:0]   unorm;
@@ -70,22 +72,26 @@ module plane_sample
   assign unorm = sum_q >> place_i;
 
   always_ff @(posedge clk_i) begin
-    if (valid_q[1] && float8_i) begin
+    if (valid_q[1] && float10_i) begin
       normal_q <= normalize(sum_q[WordBits-1:0]);
     end
-    if (valid_q[1] && !float8_i) begin
+    if (valid_q[1] && !float10_i) begin
       unorm_q <= unorm[WordBits:CodeBits] != '0 ? '1 : unorm[CodeBits-1:0];
     end
   end
 
-  // 9: the code.
-  logic [CodeBits-1:0] code;
+  // 11: rounded. 12: kept within the range.
+  logic [CodeBits-1:0] code_q;
 
-  always_comb begin
-    code   = float9_i ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
-                                                      - place_t'($signed({1'b0, normal_q.zeros})))
-                      : unorm_q;
-    code_o = code < min_code_i ? min_code_i : code > max_code_i ? max_code_i : code;
+  always_ff @(posedge clk_i) begin
+    if (valid_q[2]) begin
+      code_q <= float11_i ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
+                                                          - place_t'($signed({1'b0, normal_q.zeros})))
+                          : unorm_q;
+    end
+    if (valid_q[3]) begin
+      code_o <= code_q < min_code_i ? min_code_i : code_q > max_code_i ? max_code_i : code_q;
+    end
   end
 
 endmodule

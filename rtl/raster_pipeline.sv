@@ -23,7 +23,7 @@ module raster_pipeline
   parameter int unsigned PendingDepth = 32,
   parameter int unsigned EarlyZFifo = 16,
   parameter int unsigned Interpolator = 0,
-  parameter int unsigned InterpolatorLatency = 9,
+  parameter int unsigned InterpolatorLatency = 12,
   parameter int unsigned Lines = 128,
   parameter int unsigned Ways = 4,
   parameter int unsigned MissesInFlight = 16,

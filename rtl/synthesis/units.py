@@ -100,46 +100,57 @@ def _quad_generator() -> Unit:
     )
 
 
-SETUP_MULTIPLIERS = 6  # two for 2A in setup_cull, four for E in setup_edges
+PLANE, BARYCENTRIC = 0, 1  # the parameter Interpolator
+
+SETUP_MULTIPLIERS = {
+    # Two for 2A in setup_cull, four for E in setup_edges.
+    BARYCENTRIC: 6,
+    # And in setup_plane four for the numerators, and two in each step of the two divisions.
+    PLANE: 6 + 4 + 2 * 4 * 2,
+}
 
 
 def _setup() -> Unit:
-    def of(sub_pixel, interval, measured=True, **parameters):
+    def of(sub_pixel, interval, interpolator, measured=True, **parameters):
         return Configuration(
             "setup",
             {"SUB_PIXEL_BITS": sub_pixel},
-            {"Interval": interval, **parameters},
-            multipliers=SETUP_MULTIPLIERS,
+            {"Interval": interval, "Interpolator": interpolator, **parameters},
+            multipliers=SETUP_MULTIPLIERS[interpolator],
             measured=measured,
+            long=interpolator == PLANE,
         )
 
     return Unit(
         "setup",
         ("setup",),
         (
-            *(of(8, interval) for interval in (1, 4, 16)),
-            of(4, 1, False),
-            of(5, 2, False, BlockLevel="1'b0", FifoDepth=2),
-            of(6, 8, False, BlockSize=64),
+            *(of(8, interval, BARYCENTRIC) for interval in (1, 4, 16)),
+            of(8, 1, PLANE),
+            of(4, 1, BARYCENTRIC, False),
+            of(4, 1, PLANE, False),
+            of(5, 2, BARYCENTRIC, False, BlockLevel="1'b0", FifoDepth=2),
+            of(6, 8, BARYCENTRIC, False, BlockSize=64),
         ),
     )
 
 
-SAMPLE_MULTIPLIERS = 6  # of 32 x 32 bits: three weights, two unorm terms, one division of the float32 sum
+# Of 32 x 32 bits: three weights, two unorm terms, one division of the float32 sum.
+SAMPLE_MULTIPLIERS = 6
 
 
-def early_z_multipliers(test_width: int) -> int:
-    """Of all samples of a beat, and the one that numbers the tile: tile_y times the tiles in a row."""
-    return 4 * test_width * SAMPLE_MULTIPLIERS + 1
+def early_z_multipliers(test_width: int, interpolator: int) -> int:
+    """Of all samples of a beat, or two of the tile; and the one that numbers the tile: tile_y times the tiles in a row."""
+    return (2 if interpolator == PLANE else 4 * test_width * SAMPLE_MULTIPLIERS) + 1
 
 
 def _early_z() -> Unit:
-    def whole(test_width, measured=True, defines=None, long=False, **parameters):
+    def whole(test_width, interpolator, measured=True, defines=None, long=False, **parameters):
         return Configuration(
             "early_z",
             {"TEST_WIDTH": test_width, **(defines or {})},
-            parameters,
-            multipliers=early_z_multipliers(test_width),
+            {"Interpolator": interpolator, **parameters},
+            multipliers=early_z_multipliers(test_width, interpolator),
             measured=measured,
             long=long,
         )
@@ -150,10 +161,12 @@ def _early_z() -> Unit:
         "early_z",
         ("early_z",),
         (
-            whole(1),
-            whole(4, False, long=True),
-            whole(2, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
-            whole(1, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
+            whole(1, BARYCENTRIC),
+            whole(1, PLANE),
+            whole(4, PLANE),
+            whole(4, BARYCENTRIC, False, long=True),
+            whole(2, BARYCENTRIC, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
+            whole(1, PLANE, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
         ),
     )
 
@@ -164,7 +177,9 @@ def _early_z_parts() -> Unit:
         "early_z_parts",
         ("early_z",),
         (
-            Configuration("depth_sample", multipliers=SAMPLE_MULTIPLIERS),
+            Configuration("barycentric_sample", multipliers=SAMPLE_MULTIPLIERS),
+            Configuration("plane_sample"),
+            *(Configuration("depth_plane", {}, {"Quads": quads}, 2) for quads in (1, 4)),
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
@@ -189,14 +204,21 @@ def _memories() -> Unit:
 def _raster_pipeline() -> Unit:
     """All units and their counters: only elaborated. Its parts are measured."""
 
-    def of(test_width, **more):
-        multipliers = SETUP_MULTIPLIERS + early_z_multipliers(test_width)
-        return Configuration("raster_pipeline", {"TEST_WIDTH": test_width}, {}, multipliers, **more)
+    def of(test_width, interpolator, **more):
+        multipliers = SETUP_MULTIPLIERS[interpolator] + early_z_multipliers(test_width, interpolator)
+        return Configuration(
+            "raster_pipeline",
+            {"TEST_WIDTH": test_width},
+            {"Interpolator": interpolator},
+            multipliers,
+            measured=False,
+            **more,
+        )
 
     return Unit(
         "raster_pipeline",
         (*sorted(path.stem for path in RTL.glob("*.f") if path.stem != "raster_pipeline"), "raster_pipeline"),
-        (of(1, measured=False), of(4, measured=False, long=True)),
+        (of(1, BARYCENTRIC), of(4, PLANE, long=True), of(4, BARYCENTRIC, long=True)),
     )
 
 

@@ -13,7 +13,7 @@
 
 namespace halfspace::tb {
 
-inline constexpr std::uint64_t kLookupToTest = 14;  ///< f to b at least
+inline constexpr std::uint64_t kLookupToTest = 17;  ///< f to b at least
 inline constexpr std::uint64_t kTestToSink = 2;     ///< b to the first beat at the sink
 
 /// What happened with a command, up to where the run ended.

@@ -86,8 +86,8 @@ TEST_CASE("timing gates: latency of each unit", "[timing]") {
   CHECK(rig.times.e.at(0) == 23 + 2);
   CHECK(rig.times.g.at(0) == 25 + 3);  // two pipeline registers and the output register
   CHECK(rig.times.f.at(0) == 28 + 2);
-  CHECK(rig.times.b.at(0) == 30 + 14);
-  CHECK(rig.times.y.at(0) == 44 + 2);
+  CHECK(rig.times.b.at(0) == 30 + 17);
+  CHECK(rig.times.y.at(0) == 47 + 2);
 }
 
 TEST_CASE("timing gates: the division for the plane", "[timing]") {
@@ -99,7 +99,7 @@ TEST_CASE("timing gates: the division for the plane", "[timing]") {
 }
 
 TEST_CASE("timing gates: pipeline registers of the interpolator", "[timing]") {
-  for (const int registers : {9, 10, 32}) {
+  for (const int registers : {12, 13, 32}) {
     Config config = deep();
     config.depth.latency = registers;
     Rig rig(config);
@@ -215,10 +215,10 @@ TEST_CASE("timing gates: the pending store takes a burst when one has been teste
   Rig rig(config);
   rig.triangle(1, {16, 4, 4});
   CHECK(rig.times.f.at(0) == 30);
-  CHECK(rig.times.b.at(0) == 44);  // 16 quads, one a cycle: until 59
+  CHECK(rig.times.b.at(0) == 47);  // 16 quads, one a cycle: until 62
   CHECK(rig.times.f.at(1) == 34);
-  CHECK(rig.times.f.at(2) == 60);
-  CHECK(rig.times.b.at(1) == 60);
+  CHECK(rig.times.f.at(2) == 63);
+  CHECK(rig.times.b.at(1) == 63);
 }
 
 TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
@@ -226,9 +226,9 @@ TEST_CASE("timing gates: the test waits for the sink", "[timing]") {
   config.early_z.fifo = 2;
   Rig rig(config);
   rig.triangle(1, {4, 4, 4});
-  CHECK(rig.times.b.at(1) == 45);
-  CHECK(rig.times.y.at(0) == 46);
-  CHECK(rig.times.b.at(2) == 47);
+  CHECK(rig.times.b.at(1) == 48);
+  CHECK(rig.times.y.at(0) == 49);
+  CHECK(rig.times.b.at(2) == 50);
 }
 
 TEST_CASE("timing gates: a fetched line arrives after latency and transfer", "[timing]") {
@@ -248,10 +248,10 @@ TEST_CASE("timing gates: lines made from the clear value are resolved one a cycl
   Rig rig(deep());
   rig.miss(4, {{.line = 1, .bytes = 256}});
   CHECK(rig.times.f.at(0) == 30);
-  CHECK(rig.times.b.at(0) == 44);
+  CHECK(rig.times.b.at(0) == 47);
   rig.miss(4, {{.line = 2, .bytes = 256}, {.line = 3, .bytes = 256}, {.line = 4, .bytes = 256}});
   CHECK(rig.times.f.at(1) == 31);  // while the line before is resolved; its own in 32, 33, 34
-  CHECK(rig.times.b.at(1) == 45);
+  CHECK(rig.times.b.at(1) == 48);
   rig.triangle(1, {4});
   CHECK(rig.times.f.at(2) == 34);
 }
@@ -324,10 +324,10 @@ TEST_CASE("timing gates: requests of one burst follow each other", "[timing]") {
 TEST_CASE("timing gates: a clear waits until the machine is empty", "[timing]") {
   Rig rig(deep());
   rig.triangle(1, {4});
-  CHECK(rig.times.y.at(0) == 46);
+  CHECK(rig.times.y.at(0) == 49);
   rig.fast_clear(100);
   rig.dropped();
-  CHECK(rig.times.decide.at(1) == 47 + 100 + 4);
+  CHECK(rig.times.decide.at(1) == 50 + 100 + 4);
 }
 
 TEST_CASE("timing gates: a clear waits for writes to memory", "[timing]") {
@@ -349,14 +349,14 @@ TEST_CASE("timing gates: the flush looks at a line a cycle and waits for the wri
   config.memory.write_bytes = 64;
   Rig clean(config);
   clean.triangle(1, {4});
-  CHECK(clean.flush({}) == 47 + 16);
+  CHECK(clean.flush({}) == 50 + 16);
   Rig dirty(config);
   dirty.triangle(1, {4});
-  // line 2 is seen in 49 and written in 50 to 53; line 3 finds the slot in 54 and is written in 55 to 58
-  CHECK(dirty.flush({{.slot = 2, .bytes = 256}, {.slot = 3, .bytes = 256}}) == 54 + 1 + 12);
+  // line 2 is seen in 52 and written in 53 to 56; line 3 finds the slot in 57 and is written in 58 to 61
+  CHECK(dirty.flush({{.slot = 2, .bytes = 256}, {.slot = 3, .bytes = 256}}) == 57 + 1 + 12);
   Rig last(config);
   last.triangle(1, {4});
-  CHECK(last.flush({{.slot = 15, .bytes = 256}}) == 47 + 16 + 4);
+  CHECK(last.flush({{.slot = 15, .bytes = 256}}) == 50 + 16 + 4);
 }
 
 TEST_CASE("timing rates: setup takes a triangle a cycle, a drawn one each interval", "[timing]") {
@@ -450,7 +450,7 @@ TEST_CASE("timing rates: few slots at the sink, a short pending store", "[timing
   pending.early_z.pending = 4;
   Rig short_store(pending);
   short_store.triangle(1, std::vector<int>(500, 4));
-  CHECK(span(short_store.times.y, 40) == 150);  // four in 14 + 1
+  CHECK(span(short_store.times.y, 40) == 180);  // four in 17 + 1
 }
 
 TEST_CASE("timing rates: memory's bandwidth, latency and write channel", "[timing]") {

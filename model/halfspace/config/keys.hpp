@@ -82,7 +82,7 @@
         one_of("plane", "barycentric"), "", function,                                                        \
         "plane = additions alone for a sample, barycentric = products; both within one unit of the last "    \
         "place", Interpolator)                                                                               \
-    MODULE(depth., latency, int, 9, range(9, 32), "cycles", time,                                            \
+    MODULE(depth., latency, int, 12, range(12, 32), "cycles", time,                                            \
         "pipeline registers of the interpolator", InterpolatorLatency)                                       \
   END(depth)                                                                                                 \
   BEGIN(z_cache)                                                                                             \
