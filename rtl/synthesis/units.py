@@ -137,11 +137,13 @@ def _setup() -> Unit:
 
 # Of 32 x 32 bits: three weights, two unorm terms, one division of the float32 sum.
 SAMPLE_MULTIPLIERS = 6
+# Of 86 x 13 bits: two gradients times the halves of the way to the tile.
+TILE_MULTIPLIERS = 4
 
 
 def early_z_multipliers(test_width: int, interpolator: int) -> int:
-    """Of all samples of a beat, or two of the tile; and the one that numbers the tile: tile_y times the tiles in a row."""
-    return (2 if interpolator == PLANE else 4 * test_width * SAMPLE_MULTIPLIERS) + 1
+    """Of all samples of a beat, or of the tile; and the one that numbers it: tile_y times the tiles in a row."""
+    return (TILE_MULTIPLIERS if interpolator == PLANE else 4 * test_width * SAMPLE_MULTIPLIERS) + 1
 
 
 def _early_z() -> Unit:
@@ -179,7 +181,7 @@ def _early_z_parts() -> Unit:
         (
             Configuration("barycentric_sample", multipliers=SAMPLE_MULTIPLIERS),
             Configuration("plane_sample"),
-            *(Configuration("depth_plane", {}, {"Quads": quads}, 2) for quads in (1, 4)),
+            *(Configuration("depth_plane", {}, {"Quads": quads}, TILE_MULTIPLIERS) for quads in (1, 4)),
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
