@@ -218,7 +218,8 @@ module barycentric_sample
 
   always_ff @(posedge clk_i) begin
     if (is_unorm[6]) begin
-      unorm7_q <= clamped(sum_q >>> ((unorm16_i ? 6'd45 : 6'd37) - 6'(cut_i)), min_code7_i, max_code7_i);
+      unorm7_q <= clamped(sum_q >>> ((unorm16_i ? 6'd45 : 6'd37) - 6'(cut_i)),
+                          min_code7_i, max_code7_i);
     end
     if (is_float[6]) begin
       automatic normalized_t normal = normalize(sum_q[63] ? -sum_q : sum_q);
@@ -305,9 +306,11 @@ module barycentric_sample
     end
   end
 
-  assign code_o = code_q < min_code13_i ? min_code13_i : code_q > max_code13_i ? max_code13_i : code_q;
+  assign code_o = code_q < min_code13_i ? min_code13_i
+                  : code_q > max_code13_i ? max_code13_i : code_q;
 
   logic unused_valid;
-  assign unused_valid = ^{is_float[12], is_float[1:0], is_unorm[12:11], is_unorm[5], is_unorm[3], is_unorm[1:0]};
+  assign unused_valid = ^{is_float[12], is_float[1:0], is_unorm[12:11], is_unorm[5], is_unorm[3],
+                          is_unorm[1:0]};
 
 endmodule

@@ -172,7 +172,8 @@ module depth_barycentric
     end
     if (valid[4]) begin
       base_q <= (64'($signed(z_q[4][0])) <<< WeightBits)
-                + ((offset[4] + (is_unorm16[4] ? 64'sd16384 : 64'sd64)) <<< (6'(WeightBits) - 6'(cut[4])));
+                + ((offset[4] + (is_unorm16[4] ? 64'sd16384 : 64'sd64))
+                   <<< (6'(WeightBits) - 6'(cut[4])));
     end
   end
 
@@ -221,7 +222,7 @@ module depth_barycentric
   assign code_o = has_depth[Stages-1] ? code : '0;
 
   logic unused_valid;
-  assign unused_valid = ^{valid[12], is_unorm16[12:7], equation_i.dx, equation_i.dy, equation_i.word,
-                          equation_i.x, equation_i.y};
+  assign unused_valid = ^{valid[12], is_unorm16[12:7], equation_i.dx, equation_i.dy,
+                          equation_i.word, equation_i.x, equation_i.y};
 
 endmodule

@@ -168,7 +168,8 @@ module depth_plane
       origin4_q <= {word_q[3], {GradientFraction{1'b0}}} + across_q + along_y_q;
     end
     if (valid[4]) begin
-      origin5_q <= modular_t'(origin4_q >> GradientFraction) + modular_t'(origin4_q[GradientFraction-1]);
+      origin5_q <= modular_t'(origin4_q >> GradientFraction)
+                   + modular_t'(origin4_q[GradientFraction-1]);
     end
   end
 
@@ -296,7 +297,7 @@ module depth_plane
   assign code_o = has_depth_q ? code : '0;
 
   logic unused;
-  assign unused = ^{valid[11:9], equation_i.a, equation_i.b, equation_i.z, equation_i.bias, equation_i.area2,
-                    equation_i.reciprocal, equation_i.shift};
+  assign unused = ^{valid[11:9], equation_i.a, equation_i.b, equation_i.z, equation_i.bias,
+                    equation_i.area2, equation_i.reciprocal, equation_i.shift};
 
 endmodule

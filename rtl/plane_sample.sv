@@ -55,7 +55,7 @@ module plane_sample
   logic signed [WordBits+1:0] sum;
   logic [WordBits:0]          sum_q;
 
-  assign word = short_i ? {{(WordBits - ShortBits) {word_q[ShortBits-1]}}, word_q[ShortBits-1:0]} : word_q;
+  assign word = short_i ? word_t'($signed(word_q[ShortBits-1:0])) : word_q;
   assign sum  = (WordBits + 2)'(word) + (WordBits + 2)'(offset_i);
 
   always_ff @(posedge clk_i) begin
@@ -85,9 +85,10 @@ module plane_sample
 
   always_ff @(posedge clk_i) begin
     if (valid_q[2]) begin
-      code_q <= float11_i ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
-                                                          - place_t'($signed({1'b0, normal_q.zeros})))
-                          : unorm_q;
+      code_q <= float11_i
+                ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
+                                                - place_t'($signed({1'b0, normal_q.zeros})))
+                : unorm_q;
     end
     if (valid_q[3]) begin
       code_o <= code_q < min_code_i ? min_code_i : code_q > max_code_i ? max_code_i : code_q;

@@ -157,9 +157,14 @@ module setup_depth
       words_d.offset   = word_of_float(extremes_q.offset[CodeBits-1:0], words_d.exponent);
     end
     for (int unsigned i = 0; i < 3; i++) begin
-      words_d.z[i] = !extremes_q.draw.has_depth ? '0 : extremes_q.draw.is_float
-                     ? word_of_float(extremes_q.z[i][CodeBits-1:0], words_d.exponent)
-                     : word_t'(extremes_q.z[i]) <<< (6'd32 - (words_d.beyond ? 6'(exponent) : 6'd0));
+      if (!extremes_q.draw.has_depth) begin
+        words_d.z[i] = '0;
+      end else if (extremes_q.draw.is_float) begin
+        words_d.z[i] = word_of_float(extremes_q.z[i][CodeBits-1:0], words_d.exponent);
+      end else begin
+        words_d.z[i] = word_t'(extremes_q.z[i])
+                       <<< (6'd32 - (words_d.beyond ? 6'(exponent) : 6'd0));
+      end
     end
   end
 

@@ -35,11 +35,11 @@ module setup_plane
   output logic [1:0] [HalfGradientBits-1:0]     dy_o
 );
 
-  localparam int unsigned Divided = 17;                  // the cycle in which the reciprocal is there
+  localparam int unsigned Divided = 17; // the cycle in which the reciprocal is there
   localparam int unsigned Steps = 4;
   localparam int unsigned Latency = Divided + 1 + 3 * Steps + 1;
   localparam int unsigned NumeratorBits = WordBits + StepBits;
-  localparam int unsigned DividendBits = 28 * Steps;     // holds a numerator and GradientFraction
+  localparam int unsigned DividendBits = 28 * Steps; // a numerator and GradientFraction
   localparam int unsigned ShiftedBits = DividendBits + AreaBits - 1;
 
   typedef logic signed [WordBits:0] rise_t;
@@ -270,6 +270,7 @@ module setup_plane
   end
 
   logic unused_rest;
-  assign unused_rest = ^{x_remainder[Steps], y_remainder[Steps], x_dividend[Steps], y_dividend[Steps]};
+  assign unused_rest = ^{x_remainder[Steps], y_remainder[Steps],
+                         x_dividend[Steps], y_dividend[Steps]};
 
 endmodule
