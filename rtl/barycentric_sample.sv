@@ -302,7 +302,7 @@ module barycentric_sample
   // 12: the nearest float. 13: kept within the range.
   always_ff @(posedge clk_i) begin
     if (valid[11]) begin
-      code_q <= is_float[11] ? nearest_float(depth11_q, place11_q) : unorm11_q;
+      code_q <= is_float[11] ? rounded_float(depth11_q, rounding_of(place11_q)) : unorm11_q;
     end
   end
 

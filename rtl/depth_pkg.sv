@@ -55,19 +55,31 @@ package depth_pkg;
     return bits[31] ? -magnitude : magnitude;
   endfunction
 
-  // The float32 nearest to a number whose last bit is 2^place, halves upwards; bit 63 is set, or all are 0.
-  function automatic logic [CodeBits-1:0] nearest_float(logic [WordBits-1:0] value, place_t place);
+  // How a number whose last bit is 2^place, with bit 63 set, becomes a float32.
+  typedef struct packed {
+    logic       vanishes; // less than half of the least float32
+    logic [5:0] shift;    // to one bit more than is kept
+    logic [8:0] field;    // one less than the exponent field
+  } rounding_t;
+
+  function automatic rounding_t rounding_of(place_t place);
     localparam place_t Normal = place_t'(WordBits - 24);
-    place_t              subnormal, cut;
-    logic [5:0]          shift;
-    logic [CodeBits-1:0] rounded;
-    logic [8:0]          field;
+    place_t subnormal, cut;
     subnormal = place_t'(-149) - place;
     cut       = Normal > subnormal ? Normal : subnormal;
-    shift     = 6'(cut - place_t'(1));
-    rounded   = CodeBits'(((value >> shift) + WordBits'(1)) >> 1);
-    field     = 9'(place + cut + place_t'(149));
-    return value == '0 || cut > place_t'(WordBits) ? '0 : {field, 23'b0} + rounded;
+    return '{
+      vanishes: cut > place_t'(WordBits),
+      shift:    6'(cut - place_t'(1)),
+      field:    9'(place + cut + place_t'(149))
+    };
+  endfunction
+
+  // The float32 nearest to it, halves upwards; of 0, 0.
+  function automatic logic [CodeBits-1:0] rounded_float(logic [WordBits-1:0] value,
+                                                        rounding_t rounding);
+    logic [CodeBits-1:0] rounded;
+    rounded = CodeBits'(((value >> rounding.shift) + WordBits'(1)) >> 1);
+    return value == '0 || rounding.vanishes ? '0 : {rounding.field, 23'b0} + rounded;
   endfunction
 
 endpackage : depth_pkg

@@ -264,6 +264,15 @@ module depth_plane
     end
   end
 
+  // Of the beat in the last stage.
+  along_t last_q;
+
+  always_ff @(posedge clk_i) begin
+    if (valid[11]) begin
+      last_q <= along[11];
+    end
+  end
+
   logic [4*Quads-1:0] [CodeBits-1:0] code;
 
   for (genvar q = 0; q < Quads; q++) begin : gen_quad
@@ -281,23 +290,19 @@ module depth_plane
         .place_i    (place10_q),
         .float11_i  (along[10].is_float),
         .exponent_i (along[10].exponent),
-        .min_code_i (along[11].min_code),
-        .max_code_i (along[11].max_code),
+        .float12_i  (along[11].is_float),
+        .min_code_i (last_q.min_code),
+        .max_code_i (last_q.max_code),
         .code_o     (code[4*q+s])
       );
     end
   end
 
-  logic has_depth_q;
-
-  always_ff @(posedge clk_i) begin
-    has_depth_q <= along[11].has_depth;
-  end
-
-  assign code_o = has_depth_q ? code : '0;
+  assign code_o = last_q.has_depth ? code : '0;
 
   logic unused;
-  assign unused = ^{valid[11:9], equation_i.a, equation_i.b, equation_i.z, equation_i.bias,
+  assign unused = ^{valid[10:9], last_q.is_float, last_q.is_unorm16, last_q.beyond, last_q.exponent,
+                    last_q.offset, equation_i.a, equation_i.b, equation_i.z, equation_i.bias,
                     equation_i.area2, equation_i.reciprocal, equation_i.shift};
 
 endmodule

@@ -1,5 +1,5 @@
 // Depth at one sample by the plane, from stage 8: the stored code of a unorm16, unorm24 or float32 surface, bit for bit
-// that of model/halfspace/units/z_test.cpp. Five registers.
+// that of model/halfspace/units/z_test.cpp. Five registers; the last stage is wires.
 //
 // A column and a row of the tile add up to the word; the offset is added; unorm sums are shifted to codes, float32 sums
 // moved up to their top bit and rounded; both are clamped.
@@ -28,10 +28,13 @@ module plane_sample
   input  exponent_t           exponent_i,
 
   // Stage 12.
+  input  logic                float12_i,
+
+  // Stage 13.
   input  logic [CodeBits-1:0] min_code_i,
   input  logic [CodeBits-1:0] max_code_i,
 
-  // After stage 12. Means nothing where valid_i was low.
+  // Stage 13. Means nothing where valid_i was low.
   output logic [CodeBits-1:0] code_o
 );
 
@@ -80,19 +83,25 @@ module plane_sample
     end
   end
 
-  // 11: rounded. 12: kept within the range.
-  logic [CodeBits-1:0] code_q;
+  // 11: where to round. 12: rounded. 13: kept within the range.
+  logic [WordBits-1:0] value_q;
+  rounding_t           rounding_q;
+  logic [CodeBits-1:0] unorm11_q, code_q;
 
   always_ff @(posedge clk_i) begin
-    if (valid_q[2]) begin
-      code_q <= float11_i
-                ? nearest_float(normal_q.value, place_t'(exponent_i) - place_t'(63)
-                                                - place_t'($signed({1'b0, normal_q.zeros})))
-                : unorm_q;
+    if (valid_q[2] && float11_i) begin
+      value_q    <= normal_q.value;
+      rounding_q <= rounding_of(place_t'(exponent_i) - place_t'(63)
+                                - place_t'($signed({1'b0, normal_q.zeros})));
+    end
+    if (valid_q[2] && !float11_i) begin
+      unorm11_q <= unorm_q;
     end
     if (valid_q[3]) begin
-      code_o <= code_q < min_code_i ? min_code_i : code_q > max_code_i ? max_code_i : code_q;
+      code_q <= float12_i ? rounded_float(value_q, rounding_q) : unorm11_q;
     end
   end
+
+  assign code_o = code_q < min_code_i ? min_code_i : code_q > max_code_i ? max_code_i : code_q;
 
 endmodule

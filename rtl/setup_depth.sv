@@ -1,8 +1,8 @@
 // What the depths of a triangle are together: the range of its stored codes, the power of two above them all, and its
 // polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
 //
-// Five registers, one triangle a cycle: the extremes; both and the offset as words; sums with the offset; normalized;
-// codes.
+// Six registers, one triangle a cycle: the extremes; both and the offset as words; sums with the offset; normalized;
+// where to round; codes.
 
 module setup_depth
   import raster_pkg::*;
@@ -22,7 +22,7 @@ module setup_depth
   output word_t [2:0]           words_o,
   output logic                  short_o,
 
-  // Five cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
+  // Six cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
   output logic                  valid_o,
   output word_t                 word_o,
   output logic                  beyond_o,
@@ -283,7 +283,38 @@ module setup_depth
     .data_o  (codes_q)
   );
 
-  // Fifth register: float32 codes, and both kept within the limits.
+  // Fifth register: where float32 sums are rounded.
+  typedef struct packed {
+    codes_t    codes;
+    rounding_t low;
+    rounding_t high;
+  } rounding_step_t;
+
+  rounding_step_t rounding_d, rounding_q;
+  logic           rounding_valid;
+
+  function automatic rounding_t float_rounding(logic [5:0] zeros, exponent_t exponent);
+    return rounding_of(place_t'(exponent) - place_t'(63) - place_t'($signed({1'b0, zeros})));
+  endfunction
+
+  assign rounding_d = '{
+    codes: codes_q,
+    low:   float_rounding(codes_q.low.zeros, codes_q.exponent),
+    high:  float_rounding(codes_q.high.zeros, codes_q.exponent)
+  };
+
+  pipe_register #(
+    .Width ($bits(rounding_step_t))
+  ) u_rounding (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (codes_valid),
+    .data_i  (rounding_d),
+    .valid_o (rounding_valid),
+    .data_o  (rounding_q)
+  );
+
+  // Sixth register: float32 codes, and both kept within the limits.
   typedef struct packed {
     word_t               word;
     logic                beyond;
@@ -301,26 +332,24 @@ module setup_depth
     return code < least ? least : code > most ? most : code;
   endfunction
 
-  function automatic logic [CodeBits-1:0] float_code(normalized_t sum, exponent_t exponent);
-    return nearest_float(sum.value, place_t'(exponent) - place_t'(63)
-                                    - place_t'($signed({1'b0, sum.zeros})));
-  endfunction
+  codes_t last;
+  assign last = rounding_q.codes;
 
   always_comb begin
     automatic logic from_sum;
-    from_sum = codes_q.draw.is_float && codes_q.moved;
+    from_sum = last.draw.is_float && last.moved;
     range_d  = '0;
-    if (codes_q.draw.has_depth) begin
-      range_d.word     = codes_q.word;
-      range_d.beyond   = codes_q.beyond;
-      range_d.exponent = codes_q.exponent;
-      range_d.offset   = codes_q.offset;
+    if (last.draw.has_depth) begin
+      range_d.word     = last.word;
+      range_d.beyond   = last.beyond;
+      range_d.exponent = last.exponent;
+      range_d.offset   = last.offset;
       range_d.min_code = limited(
-          from_sum ? float_code(codes_q.low, codes_q.exponent) : codes_q.min_code,
-          codes_q.draw.least_code, codes_q.draw.most_code);
+          from_sum ? rounded_float(last.low.value, rounding_q.low) : last.min_code,
+          last.draw.least_code, last.draw.most_code);
       range_d.max_code = limited(
-          from_sum ? float_code(codes_q.high, codes_q.exponent) : codes_q.max_code,
-          codes_q.draw.least_code, codes_q.draw.most_code);
+          from_sum ? rounded_float(last.high.value, rounding_q.high) : last.max_code,
+          last.draw.least_code, last.draw.most_code);
     end
   end
 
@@ -329,7 +358,7 @@ module setup_depth
   ) u_range (
     .clk_i   (clk_i),
     .rst_ni  (rst_ni),
-    .valid_i (codes_valid),
+    .valid_i (rounding_valid),
     .data_i  (range_d),
     .valid_o (valid_o),
     .data_o  (range_q)
