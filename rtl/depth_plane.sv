@@ -74,7 +74,7 @@ module depth_plane
   end
 
   // 1: from vertex 0 to the centre of the first pixel of the square that additions start from. It is the same for all
-  // sizes of tiles; the tile's place in it follows in stage 4.
+  // sizes of tiles; the tile's place in it follows in stage 6.
   localparam int unsigned AnchorLog2 = 4;
 
   typedef logic [AnchorLog2-1:0] place_in_anchor_t;
@@ -82,7 +82,7 @@ module depth_plane
   step_t     right_q, down_q;
   gradient_t dx1_q, dy1_q;
 
-  // What goes along from stage 1 to stage 5; element i is of stage i + 1.
+  // Registers of stages 1 to 5 of what only goes along.
   word_t [3:1]            word_q;
   place_in_anchor_t [5:1] x_q, y_q;
 

@@ -107,7 +107,7 @@ module setup_depth
     .data_o  (extremes_q)
   );
 
-  // Second register: as words. On unorm surfaces they are the depths as they are.
+  // Second register: as words. On unorm surfaces all but `z` are the depths as they are.
   typedef struct packed {
     draw_t               draw;
     word_t [2:0]         z;
@@ -187,7 +187,7 @@ module setup_depth
     draw_t               draw;
     logic [WordBits-1:0] low;
     logic [WordBits-1:0] high;
-    logic                moved; // not by an offset: the codes stand as they are
+    logic                moved; // else there is no offset, and the codes stand as they are
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
     word_t               word;

@@ -29,9 +29,8 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
       const DrawContext& draw = *item->draw;
       const ZSurface place = draw.surface == kNoSurface ? ZSurface{} : places[draw.surface];
       for (const ScreenTriangle& triangle : item->triangles) {
-        SetupState setup = draw.setup;
-        setup.bounds = intersect(setup.bounds, triangle.within);
-        const DrawStatePacket state = draw_state_packet(setup, draw.early_z, place, 0);
+        const DrawStatePacket state =
+            draw_state_packet(setup_state(draw.setup, triangle), draw.early_z, place, 0);
         jobs.push_back({to_packet(triangle), state});
       }
     }

@@ -141,6 +141,62 @@ TEST_CASE("depth is within one unit of the last place, and inside the range of t
   CHECK(worst.get_d() < bound);
 }
 
+// Depth clamp lets vertices leave [0, 1]; fragments are kept in it.
+TEST_CASE("depth of triangles that leave [0, 1] is right inside of it") {
+  const auto interpolator = GENERATE(DepthInterpolator::kPlane, DepthInterpolator::kBarycentric);
+  const DepthFormat format = GENERATE(DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32);
+  CAPTURE(seed(), static_cast<int>(format), static_cast<int>(interpolator));
+  TriangleSource source(seed(), kSize, 8);
+  SetupState state = open_state(kSize);
+  state.depth_format = format;
+  state.interpolator = interpolator;
+  EarlyZState early_z = plane_state(format, 8);
+  early_z.interpolator = interpolator;
+  int inside = 0;
+  for (int n = 0; n < 6000; ++n) {
+    ScreenTriangle t = source.next();
+    std::array<mpq_class, 3> z;
+    mpq_class largest = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double depth = std::ldexp(source.integer(-(1 << 24), 1 << 24), source.integer(-26, -10));
+      t.v[i].z = vertex_depth_code(format, depth);
+      z[i] = format == DepthFormat::kFloat32
+                 ? mpq_class(static_cast<float>(depth))
+                 : mpq_class(t.v[i].z) /
+                       (mpq_class(1u << vertex_depth_fraction(format)) * max_unorm_code(format));
+      largest = std::max(largest, mpq_class(abs(z[i])));
+    }
+    SetupTriangle triangle;
+    if (setup(t, state, triangle) != SetupVerdict::kDrawn) {
+      continue;
+    }
+    for (int k = 0; k < 20; ++k) {
+      const int x = source.integer(triangle.bounds.x_first, triangle.bounds.x_last);
+      const int y = source.integer(triangle.bounds.y_first, triangle.bounds.y_last);
+      const reference::GridPoint sample = reference::pixel_centre(x, y, 8);
+      if (!reference::covers(grid(t), sample, reference::TieRule::kTopLeft)) {
+        continue;
+      }
+      const mpq_class depth = reference::exact_depth(grid(t), z, sample);
+      const mpq_class exact = std::clamp<mpq_class>(depth, 0, 1);
+      inside += depth == exact ? 1 : 0;
+      const std::uint32_t code = code_at(triangle, early_z, x, y);
+      // docs/numerics.md: a unit of the last place, and what is absolute beside it
+      const mpq_class lost = interpolator == DepthInterpolator::kBarycentric ? mpq_class(largest / (1 << 26))
+                             : format == DepthFormat::kFloat32
+                                 ? mpq_class(largest / mpq_class(std::uint64_t{1} << 56))
+                                 : mpq_class(0);
+      const mpq_class unit = format == DepthFormat::kFloat32 ? mpq_class(exact / (1 << 23))
+                                                             : mpq_class(1) / max_unorm_code(format);
+      const mpq_class got = format == DepthFormat::kFloat32
+                                ? reference::float_value(std::bit_cast<float>(code))
+                                : reference::unorm_value(code, unorm_bits(format));
+      REQUIRE(abs(got - exact) <= unit + lost);
+    }
+  }
+  REQUIRE(inside > 500);
+}
+
 TEST_CASE("barycentric depth just below a power of two does not wrap") {
   // 2A is a power of two, so the reciprocal has all its bits set, and the depth is 1 - 2^-30
   const int leg = 1 << 22;  // 2^14 pixels

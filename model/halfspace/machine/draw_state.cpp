@@ -74,6 +74,12 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
           .interpolator = config.depth.interpolator};
 }
 
+SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
+  SetupState state = draw;
+  state.bounds = intersect(draw.bounds, triangle.within);
+  return state;
+}
+
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config) {
   const bool test = draw.has(Flag::kDepthTest) && format != DepthFormat::kNone;
   return {

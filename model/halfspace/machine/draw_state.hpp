@@ -30,6 +30,9 @@ WalkerConfig walker_config(const Config& config);
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
 
+/// The state of the draw for one triangle, with the bounds that the triangle itself has.
+SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle);
+
 /// All that travels with the triangles of a draw. `place` and `clear_code` are those of its depth surface, if
 /// it has one.
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,

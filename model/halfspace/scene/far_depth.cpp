@@ -58,9 +58,7 @@ std::int32_t before(Int128 first, Int128 step, Int128 limit, std::int32_t count)
 
 }  // namespace
 
-bool is_far(const std::array<double, 3>& z) {
-  return std::ranges::any_of(z, [](double depth) { return !(std::abs(depth) < (1 << kVertexDepthRange)); });
-}
+bool is_far(double depth) { return !(std::abs(depth) < (1 << kVertexDepthRange)); }
 
 std::size_t emit_by_sample(const ScreenTriangle& triangle, const std::array<double, 3>& z,
                            const DepthRange& range, DepthFormat format, int sub_pixel_bits,

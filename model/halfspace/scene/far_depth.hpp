@@ -18,8 +18,8 @@ struct DepthRange {
   double most;
 };
 
-/// True where a vertex depth cannot hold one of `z`.
-bool is_far(const std::array<double, 3>& z);
+/// True where the packet of a triangle cannot hold it: a vertex depth, or an offset.
+bool is_far(double depth);
 
 /// Appends the triangle as often as it takes, each time with other pixels of `screen` and one depth for all
 /// of them; its edges stay as they are, so every sample is covered once, or not, as if z were nothing. Where

@@ -123,7 +123,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       }
     }
     const double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
-    if (is_far(z)) {
+    if (is_far(offset) || std::ranges::any_of(z, is_far)) {
       for (double& depth : z) {
         depth += offset;
       }

@@ -212,7 +212,7 @@ struct DepthEquationPacket {
 constexpr std::array<std::uint64_t, 2> gradient_halves(Modular gradient, bool short_words) {
   constexpr int kHalf = Widths{}.HalfGradientBits;
   constexpr Modular kMask = (Modular{1} << kHalf) - 1;
-  constexpr Modular kShort = (Modular{1} << (32 + kGradientFraction)) - 1;
+  constexpr Modular kShort = (Modular{1} << (8 * sizeof(ShortWord) + kGradientFraction)) - 1;
   const Modular kept = short_words ? gradient & kShort : gradient;
   return {static_cast<std::uint64_t>(kept & kMask), static_cast<std::uint64_t>(kept >> kHalf & kMask)};
 }

@@ -154,9 +154,8 @@ void Driver::load_triangle() {
   const DrawContext& draw = *item_->draw;
   const bool has_depth = draw.surface != kNoSurface;
   const ScreenTriangle& triangle = item_->triangles[next_in_item_];
-  SetupState setup = draw.setup;
-  setup.bounds = intersect(setup.bounds, triangle.within);
-  state_ = draw_state_packet(setup, draw.early_z, has_depth ? run_.places[draw.surface] : ZSurface{},
+  state_ = draw_state_packet(setup_state(draw.setup, triangle), draw.early_z,
+                             has_depth ? run_.places[draw.surface] : ZSurface{},
                              has_depth ? run_.clear_code[draw.surface] : 0);
   pack(to_packet(triangle), run_.widths, run_.in.triangle);
   pack(state_, run_.widths, run_.in.state);
