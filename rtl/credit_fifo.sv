@@ -1,8 +1,7 @@
 // FIFO behind a pipeline of fixed latency, with the credits that keep the pipeline from ever stalling.
 //
-// The pipeline takes a packet only with reserve_ready_o, which says that a slot is free for what it will push. A
-// slot is taken by reserve_i when the packet enters, and returned in the cycle after pop. Both handshake outputs
-// and the payload come from registers: no path leads from pop_ready_i to reserve_ready_o.
+// Both handshake outputs and the payload come from registers: no path leads from pop_ready_i to reserve_ready_o. For
+// many or wide slots there is memory_fifo, beside which credits stand alone.
 
 module credit_fifo #(
   /// Bits of the payload.
@@ -30,6 +29,20 @@ module credit_fifo #(
   output logic             empty_o
 );
 
+  logic pop;
+  assign pop = pop_valid_o & pop_ready_i;
+
+  credits #(
+    .Slots (Depth)
+  ) u_credits (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (reserve_ready_o),
+    .reserve_i       (reserve_i),
+    .return_i        (pop),
+    .empty_o         (empty_o)
+  );
+
   localparam int unsigned Stored = Depth - 1;
   localparam int unsigned CountBits = $clog2(Depth + 1);
   localparam int unsigned PointerBits = Stored > 1 ? $clog2(Stored) : 1;
@@ -38,35 +51,6 @@ module credit_fifo #(
   typedef logic [PointerBits-1:0] pointer_t;
 
   localparam pointer_t LastSlot = pointer_t'(Stored - 1);
-
-  logic pop;
-  assign pop = pop_valid_o & pop_ready_i;
-
-  // Credits: slots that are neither filled nor promised.
-  count_t free_d, free_q;
-  logic   reserve_ready_q;
-
-  always_comb begin
-    free_d = free_q;
-    if (reserve_i && !pop) begin
-      free_d = free_q - count_t'(1);
-    end else if (!reserve_i && pop) begin
-      free_d = free_q + count_t'(1);
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      free_q          <= count_t'(Depth);
-      reserve_ready_q <= 1'b0;
-    end else begin
-      free_q          <= free_d;
-      reserve_ready_q <= free_d != '0;
-    end
-  end
-
-  assign reserve_ready_o = reserve_ready_q;
-  assign empty_o         = free_q == count_t'(Depth);
 
   // A packet goes straight to the output register when that is free and nothing waits before it.
   logic             valid_q;
@@ -122,8 +106,6 @@ module credit_fifo #(
   assign data_o      = data_q;
 
 `ifndef SYNTHESIS
-  CreditBeforeReserve: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      reserve_i |-> reserve_ready_o);
   SlotBeforePush: assert property (@(posedge clk_i) disable iff (!rst_ni)
       store && !fetch |-> waiting_q != count_t'(Stored));
 `endif

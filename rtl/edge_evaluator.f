@@ -1,4 +1,5 @@
 raster_pkg.sv
+credits.sv
 credit_fifo.sv
 pipe_register.sv
 edge_saturate.sv

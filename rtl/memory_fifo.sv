@@ -77,7 +77,7 @@ module memory_fifo #(
     if (pass) begin
       passed_q <= data_i;
     end
-    if (output_free) begin
+    if (fetch || pass) begin
       was_fetched_q <= fetch;
     end
   end

@@ -107,8 +107,8 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 3 and 6 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
-  // later. The last has the credits; the others are taken with it.
+  // The parts of a slot: at the decision, 3 and 7 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
+  // later.
   typedef struct packed {
     vertex_depth_t [2:0] z;
     area_t               area2;
@@ -256,74 +256,72 @@ module setup
     assign unused_words = ^{words, is_short};
   end
 
-  // All four count the same credits; one of them says so.
+  // A slot is a word of four memories, the last of which is filled last.
   logic fifo_empty;
-  logic unused_known_ready, unused_known_valid, unused_known_empty;
-  logic unused_edges_ready, unused_edges_valid, unused_edges_empty;
-  logic unused_depth_ready, unused_depth_valid, unused_depth_empty;
 
-  credit_fifo #(
-    .Width ($bits(known_t)),
-    .Depth (FifoDepth)
-  ) u_known (
-    .clk_i           (clk_i),
-    .rst_ni          (rst_ni),
-    .reserve_ready_o (unused_known_ready),
-    .reserve_i       (draw),
-    .push_i          (draw),
-    .data_i          (known_d),
-    .pop_valid_o     (unused_known_valid),
-    .pop_ready_i     (leave),
-    .data_o          (known),
-    .empty_o         (unused_known_empty)
-  );
-
-  credit_fifo #(
-    .Width ($bits(edges_t)),
-    .Depth (FifoDepth)
-  ) u_edges_fifo (
-    .clk_i           (clk_i),
-    .rst_ni          (rst_ni),
-    .reserve_ready_o (unused_edges_ready),
-    .reserve_i       (draw),
-    .push_i          (edges_valid),
-    .data_i          (edges_d),
-    .pop_valid_o     (unused_edges_valid),
-    .pop_ready_i     (leave),
-    .data_o          (edges),
-    .empty_o         (unused_edges_empty)
-  );
-
-  credit_fifo #(
-    .Width ($bits(depth_t)),
-    .Depth (FifoDepth)
-  ) u_depth_fifo (
-    .clk_i           (clk_i),
-    .rst_ni          (rst_ni),
-    .reserve_ready_o (unused_depth_ready),
-    .reserve_i       (draw),
-    .push_i          (depth_valid),
-    .data_i          (depth_d),
-    .pop_valid_o     (unused_depth_valid),
-    .pop_ready_i     (leave),
-    .data_o          (depth),
-    .empty_o         (unused_depth_empty)
-  );
-
-  credit_fifo #(
-    .Width ($bits(divided_t)),
-    .Depth (FifoDepth)
-  ) u_divided_fifo (
+  credits #(
+    .Slots (FifoDepth)
+  ) u_credits (
     .clk_i           (clk_i),
     .rst_ni          (rst_ni),
     .reserve_ready_o (slot_free),
     .reserve_i       (draw),
-    .push_i          (divided_valid),
-    .data_i          (divided_d),
-    .pop_valid_o     (triangle_valid_o),
-    .pop_ready_i     (triangle_ready_i),
-    .data_o          (divided),
+    .return_i        (leave),
     .empty_o         (fifo_empty)
+  );
+
+  logic unused_known_valid, unused_edges_valid, unused_depth_valid;
+
+  memory_fifo #(
+    .Width ($bits(known_t)),
+    .Slots (FifoDepth)
+  ) u_known (
+    .clk_i       (clk_i),
+    .rst_ni      (rst_ni),
+    .push_i      (draw),
+    .data_i      (known_d),
+    .pop_valid_o (unused_known_valid),
+    .pop_ready_i (leave),
+    .data_o      (known)
+  );
+
+  memory_fifo #(
+    .Width ($bits(edges_t)),
+    .Slots (FifoDepth)
+  ) u_edges_fifo (
+    .clk_i       (clk_i),
+    .rst_ni      (rst_ni),
+    .push_i      (edges_valid),
+    .data_i      (edges_d),
+    .pop_valid_o (unused_edges_valid),
+    .pop_ready_i (leave),
+    .data_o      (edges)
+  );
+
+  memory_fifo #(
+    .Width ($bits(depth_t)),
+    .Slots (FifoDepth)
+  ) u_depth_fifo (
+    .clk_i       (clk_i),
+    .rst_ni      (rst_ni),
+    .push_i      (depth_valid),
+    .data_i      (depth_d),
+    .pop_valid_o (unused_depth_valid),
+    .pop_ready_i (leave),
+    .data_o      (depth)
+  );
+
+  memory_fifo #(
+    .Width ($bits(divided_t)),
+    .Slots (FifoDepth)
+  ) u_divided (
+    .clk_i       (clk_i),
+    .rst_ni      (rst_ni),
+    .push_i      (divided_valid),
+    .data_i      (divided_d),
+    .pop_valid_o (triangle_valid_o),
+    .pop_ready_i (leave),
+    .data_o      (divided)
   );
 
   assign leave = triangle_valid_o & triangle_ready_i;

@@ -1,8 +1,8 @@
 // What the depths of a triangle are together: the range of its stored codes, the power of two above them all, and its
 // polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
 //
-// Six registers, one triangle a cycle: the extremes; both and the offset as words; sums with the offset; normalized;
-// where to round; codes.
+// Seven registers, one triangle a cycle: the extremes; the power of two; the extremes and the offset as words; sums with
+// the offset; normalized; where to round; codes.
 
 module setup_depth
   import raster_pkg::*;
@@ -18,11 +18,11 @@ module setup_depth
   input  logic [CodeBits-1:0]   least_code_i,
   input  logic [CodeBits-1:0]   most_code_i,
 
-  // Two cycles later: the vertices' depths as words, unorm depths in [0, 1] as they are but for a place 32 bits higher.
+  // Three cycles later: the vertices' depths as words, unorm depths in [0, 1] as they are but for a place 32 bits higher.
   output word_t [2:0]           words_o,
   output logic                  short_o,
 
-  // Six cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
+  // Seven cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
   output logic                  valid_o,
   output word_t                 word_o,
   output logic                  beyond_o,
@@ -107,7 +107,52 @@ module setup_depth
     .data_o  (extremes_q)
   );
 
-  // Second register: as words. On unorm surfaces all but `z` are the depths as they are.
+  // Second register: the power of two above all of them, which is 1 in their words.
+  typedef struct packed {
+    extremes_t extremes;
+    logic      beyond;
+    exponent_t exponent;
+  } scale_t;
+
+  scale_t scale_d, scale_q;
+  logic   scale_valid;
+
+  function automatic logic [VertexDepthBits-1:0] magnitude_of(vertex_depth_t z);
+    return z[VertexDepthBits-1] ? -z : z;
+  endfunction
+
+  always_comb begin
+    automatic logic [VertexDepthBits-1:0] magnitude;
+    magnitude = magnitude_of(extremes_q.z_min) | magnitude_of(extremes_q.z_max)
+                | magnitude_of(extremes_q.offset);
+    scale_d   = '{
+      extremes: extremes_q,
+      beyond:   extremes_q.z_min[VertexDepthBits-1] || extremes_q.z_max >>> UnitBits != '0,
+      exponent: '0
+    };
+    for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
+      if (magnitude[i]) begin
+        scale_d.exponent = exponent_t'(i + 1 - UnitBits);
+      end
+    end
+    if (extremes_q.draw.is_float) begin
+      scale_d.beyond   = 1'b0;
+      scale_d.exponent = exponent_t'({1'b0, extremes_q.field}) - exponent_t'(126);
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(scale_t))
+  ) u_scale (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (extremes_valid),
+    .data_i  (scale_d),
+    .valid_o (scale_valid),
+    .data_o  (scale_q)
+  );
+
+  // Third register: as words. On unorm surfaces all but `z` are the depths as they are.
   typedef struct packed {
     draw_t               draw;
     word_t [2:0]         z;
@@ -120,50 +165,40 @@ module setup_depth
     exponent_t           exponent;
   } words_t;
 
-  words_t words_d, words_q;
-  logic   words_valid;
+  extremes_t from;
+  words_t    words_d, words_q;
+  logic      words_valid;
 
-  function automatic logic [VertexDepthBits-1:0] magnitude_of(vertex_depth_t z);
-    return z[VertexDepthBits-1] ? -z : z;
-  endfunction
+  assign from = scale_q.extremes;
+
+  logic unused_field;
+  assign unused_field = ^from.field;
 
   always_comb begin
-    automatic logic [VertexDepthBits-1:0] magnitude;
-    automatic exponent_t exponent;
-    magnitude = magnitude_of(extremes_q.z_min) | magnitude_of(extremes_q.z_max)
-                | magnitude_of(extremes_q.offset);
-    exponent  = '0;
-    for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
-      if (magnitude[i]) begin
-        exponent = exponent_t'(i + 1 - UnitBits);
-      end
-    end
     words_d = '{
-      draw:     extremes_q.draw,
+      draw:     from.draw,
       z:        '0,
-      z_min:    word_t'(extremes_q.z_min),
-      z_max:    word_t'(extremes_q.z_max),
-      offset:   word_t'(extremes_q.offset),
-      min_code: extremes_q.z_min[31] ? '0 : extremes_q.z_min[CodeBits-1:0],
-      max_code: extremes_q.z_max[31] ? '0 : extremes_q.z_max[CodeBits-1:0],
-      beyond:   extremes_q.z_min[VertexDepthBits-1] || extremes_q.z_max >>> UnitBits != '0,
-      exponent: exponent
+      z_min:    word_t'(from.z_min),
+      z_max:    word_t'(from.z_max),
+      offset:   word_t'(from.offset),
+      min_code: from.z_min[31] ? '0 : from.z_min[CodeBits-1:0],
+      max_code: from.z_max[31] ? '0 : from.z_max[CodeBits-1:0],
+      beyond:   scale_q.beyond,
+      exponent: scale_q.exponent
     };
-    if (extremes_q.draw.is_float) begin
-      words_d.beyond   = 1'b0;
-      words_d.exponent = exponent_t'({1'b0, extremes_q.field}) - exponent_t'(126);
-      words_d.z_min    = word_of_float(extremes_q.z_min[CodeBits-1:0], words_d.exponent);
-      words_d.z_max    = word_of_float(extremes_q.z_max[CodeBits-1:0], words_d.exponent);
-      words_d.offset   = word_of_float(extremes_q.offset[CodeBits-1:0], words_d.exponent);
+    if (from.draw.is_float) begin
+      words_d.z_min  = word_of_float(from.z_min[CodeBits-1:0], scale_q.exponent);
+      words_d.z_max  = word_of_float(from.z_max[CodeBits-1:0], scale_q.exponent);
+      words_d.offset = word_of_float(from.offset[CodeBits-1:0], scale_q.exponent);
     end
     for (int unsigned i = 0; i < 3; i++) begin
-      if (!extremes_q.draw.has_depth) begin
+      if (!from.draw.has_depth) begin
         words_d.z[i] = '0;
-      end else if (extremes_q.draw.is_float) begin
-        words_d.z[i] = word_of_float(extremes_q.z[i][CodeBits-1:0], words_d.exponent);
+      end else if (from.draw.is_float) begin
+        words_d.z[i] = word_of_float(from.z[i][CodeBits-1:0], scale_q.exponent);
       end else begin
-        words_d.z[i] = word_t'(extremes_q.z[i])
-                       <<< (6'd32 - (words_d.beyond ? 6'(exponent) : 6'd0));
+        words_d.z[i] = word_t'(from.z[i])
+                       <<< (6'd32 - (scale_q.beyond ? 6'(scale_q.exponent) : 6'd0));
       end
     end
   end
@@ -176,13 +211,13 @@ module setup_depth
   ) u_words (
     .clk_i   (clk_i),
     .rst_ni  (rst_ni),
-    .valid_i (extremes_valid),
+    .valid_i (scale_valid),
     .data_i  (words_d),
     .valid_o (words_valid),
     .data_o  (words_q)
   );
 
-  // Third register: with the offset. What is negative is 0; unorm sums are far below the word's range.
+  // Fourth register: with the offset. What is negative is 0; unorm sums are far below the word's range.
   typedef struct packed {
     draw_t               draw;
     logic [WordBits-1:0] low;
@@ -229,7 +264,7 @@ module setup_depth
     .data_o  (sums_q)
   );
 
-  // Fourth register: float32 sums with their top bit at bit 63; unorm codes, which a large sum is beyond.
+  // Fifth register: float32 sums with their top bit at bit 63; unorm codes, which a large sum is beyond.
   typedef struct packed {
     draw_t               draw;
     normalized_t         low;
@@ -283,7 +318,7 @@ module setup_depth
     .data_o  (codes_q)
   );
 
-  // Fifth register: where float32 sums are rounded.
+  // Sixth register: where float32 sums are rounded.
   typedef struct packed {
     codes_t    codes;
     rounding_t low;
@@ -314,7 +349,7 @@ module setup_depth
     .data_o  (rounding_q)
   );
 
-  // Sixth register: float32 codes, and both kept within the limits.
+  // Seventh register: float32 codes, and both kept within the limits.
   typedef struct packed {
     word_t               word;
     logic                beyond;

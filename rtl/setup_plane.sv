@@ -3,7 +3,7 @@
 //
 //     dx = ((z1 - z0) a1 + (z2 - z0) a2) 2^22 / 2A        dy the same with b
 //
-// One triangle a cycle. Six registers: steps of the edges, twice; differences of depth; products; sums; magnitudes.
+// One triangle a cycle. Seven registers: steps of the edges, thrice; differences of depth; products; sums; magnitudes.
 // They wait for the reciprocal of 2A. Then one register in which 2A has its top bit set and the numerators have moved
 // along, four steps of the division of three each, and one for the sign. Eight multipliers for the division, four for
 // the numerators.
@@ -22,7 +22,7 @@ module setup_plane
   input  area_t         area2_i,
   input  shift_t        shift_i,  // area2 >> shift has 32 bits
 
-  // Two cycles later.
+  // Three cycles later.
   input  word_t [2:0]   words_i,
   input  logic          short_i,
 
@@ -60,8 +60,8 @@ module setup_plane
     end
   end
 
-  // Registers 1 and 2: the steps of edges 1 and 2, index 0 and 1.
-  step_t [1:0] a1_q, b1_q, a2_q, b2_q, a3_q, b3_q;
+  // Registers 1 to 4: the steps of edges 1 and 2, index 0 and 1, which wait for the depths.
+  step_t [4:1] [1:0] a_q, b_q;
 
   function automatic step_t difference(coord_t plus, coord_t minus);
     return step_t'(plus) - step_t'(minus);
@@ -69,20 +69,18 @@ module setup_plane
 
   always_ff @(posedge clk_i) begin
     if (valid[0]) begin
-      a1_q <= {difference(y_i[0], y_i[1]), difference(y_i[2], y_i[0])};
-      b1_q <= {difference(x_i[1], x_i[0]), difference(x_i[0], x_i[2])};
+      a_q[1] <= {difference(y_i[0], y_i[1]), difference(y_i[2], y_i[0])};
+      b_q[1] <= {difference(x_i[1], x_i[0]), difference(x_i[0], x_i[2])};
     end
-    if (valid[1]) begin
-      a2_q <= a1_q;
-      b2_q <= b1_q;
-    end
-    if (valid[2]) begin
-      a3_q <= a2_q;
-      b3_q <= b2_q;
+    for (int unsigned i = 2; i <= 4; i++) begin
+      if (valid[i-1]) begin
+        a_q[i] <= a_q[i-1];
+        b_q[i] <= b_q[i-1];
+      end
     end
   end
 
-  // Register 3: differences of depth. 4: products. 5: sums. 6: magnitudes.
+  // Register 4: differences of depth. 5: products. 6: sums. 7: magnitudes.
   rise_t      rise1_q, rise2_q;
   numerator_t x1_q, x2_q, y1_q, y2_q, x_q, y_q;
 
@@ -91,23 +89,23 @@ module setup_plane
   endfunction
 
   always_ff @(posedge clk_i) begin
-    if (valid[2]) begin
+    if (valid[3]) begin
       rise1_q <= rise_t'(words_i[1]) - rise_t'(words_i[0]);
       rise2_q <= rise_t'(words_i[2]) - rise_t'(words_i[0]);
     end
-    if (valid[3]) begin
-      x1_q <= numerator_t'(rise1_q) * numerator_t'(a3_q[0]);
-      x2_q <= numerator_t'(rise2_q) * numerator_t'(a3_q[1]);
-      y1_q <= numerator_t'(rise1_q) * numerator_t'(b3_q[0]);
-      y2_q <= numerator_t'(rise2_q) * numerator_t'(b3_q[1]);
-    end
     if (valid[4]) begin
+      x1_q <= numerator_t'(rise1_q) * numerator_t'(a_q[4][0]);
+      x2_q <= numerator_t'(rise2_q) * numerator_t'(a_q[4][1]);
+      y1_q <= numerator_t'(rise1_q) * numerator_t'(b_q[4][0]);
+      y2_q <= numerator_t'(rise2_q) * numerator_t'(b_q[4][1]);
+    end
+    if (valid[5]) begin
       x_q <= x1_q + x2_q;
       y_q <= y1_q + y2_q;
     end
   end
 
-  // What waits for the reciprocal: from register 6 on in element 6.
+  // What waits for the reciprocal: from register 7 on in element 7.
   typedef struct packed {
     magnitude_t x;
     magnitude_t y;
@@ -115,22 +113,22 @@ module setup_plane
     logic       y_negative;
   } numerators_t;
 
-  numerators_t [Divided:6]      wait_q;
+  numerators_t [Divided:7]      wait_q;
   area_t [Divided:1]            area_q;
   shift_t [Divided:1]           shift_q;
-  logic [Latency-1:3]           short_q;
+  logic [Latency-1:4]           short_q;
   logic [Latency-1:Divided+1]   x_negative_q, y_negative_q;
 
   always_ff @(posedge clk_i) begin
-    if (valid[5]) begin
-      wait_q[6] <= '{
+    if (valid[6]) begin
+      wait_q[7] <= '{
         x:          magnitude(x_q),
         y:          magnitude(y_q),
         x_negative: x_q[NumeratorBits],
         y_negative: y_q[NumeratorBits]
       };
     end
-    for (int unsigned i = 7; i <= Divided; i++) begin
+    for (int unsigned i = 8; i <= Divided; i++) begin
       if (valid[i-1]) begin
         wait_q[i] <= wait_q[i-1];
       end
@@ -145,10 +143,10 @@ module setup_plane
         shift_q[i] <= shift_q[i-1];
       end
     end
-    if (valid[2]) begin
-      short_q[3] <= short_i;
+    if (valid[3]) begin
+      short_q[4] <= short_i;
     end
-    for (int unsigned i = 4; i < Latency; i++) begin
+    for (int unsigned i = 5; i < Latency; i++) begin
       if (valid[i-1]) begin
         short_q[i] <= short_q[i-1];
       end
