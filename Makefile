@@ -52,6 +52,11 @@ bench-error: build/release/build.ninja $(PLOT_TOOLS) ## Measure every fidelity b
 	.venv/bin/python tools/plot_error.py out/error/error.json docs/images/error.png
 	tools/write_figures.py bench-error --captured $(CAPTURED)
 
+.PHONY: depth-error
+depth-error: build/release/build.ninja ## Measure the largest error of depth over 10^8 samples; write docs/numerics.md's table.
+	cmake --build --preset release --target halfspace_depth_error
+	tools/write_figures.py depth-error
+
 .PHONY: release debug
 release debug: %: build/%/build.ninja
 	cmake --build --preset $@

@@ -45,13 +45,13 @@ package depth_pkg;
     return field == '0 ? 8'd1 : field;
   endfunction
 
-  // A float32 below 2^exponent as a word where that is 1, cut towards zero.
-  function automatic word_t word_of_float(logic [CodeBits-1:0] bits, exponent_t exponent);
-    logic [9:0] down;
-    word_t      magnitude;
-    down      = 10'(exponent) + 10'd126 - 10'(exponent_of(bits[30:23]));
+  // A float32 as a word where 1 is 2^exponent: `down` is how far its exponent is below. Cut towards zero.
+  typedef logic [7:0] down_t;
+
+  function automatic word_t word_of_float(logic [CodeBits-1:0] bits, down_t down);
+    word_t magnitude;
     magnitude = {1'b0, |bits[30:23], bits[22:0], 39'b0};
-    magnitude = down > 10'd62 ? '0 : magnitude >> down[5:0];
+    magnitude = down > 8'd62 ? '0 : magnitude >> down[5:0];
     return bits[31] ? -magnitude : magnitude;
   endfunction
 

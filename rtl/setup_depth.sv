@@ -45,13 +45,13 @@ module setup_depth
     logic [CodeBits-1:0] most_code;
   } draw_t;
 
-  // First register: the least and the greatest depth.
+  // First register: which depths are the least and the greatest.
   typedef struct packed {
     draw_t               draw;
     vertex_depth_t [2:0] z;
-    vertex_depth_t       z_min;
-    vertex_depth_t       z_max;
     vertex_depth_t       offset;
+    logic [1:0]          min_index;
+    logic [1:0]          max_index;
     logic [7:0]          field; // the largest exponent field
   } extremes_t;
 
@@ -65,10 +65,17 @@ module setup_depth
     return !is_float ? z : z[31] ? -magnitude : magnitude;
   endfunction
 
-  logic is_float;
+  vertex_depth_t [2:0] ordered;
+  logic                is_float, less10, less20, less21;
   assign is_float = format_i == Float32;
 
   always_comb begin
+    for (int unsigned i = 0; i < 3; i++) begin
+      ordered[i] = order(z_i[i], is_float);
+    end
+    less10 = $signed(ordered[1]) < $signed(ordered[0]);
+    less20 = $signed(ordered[2]) < $signed(ordered[0]);
+    less21 = $signed(ordered[2]) < $signed(ordered[1]);
     extremes_d.draw = '{
       has_depth:  format_i != '0,
       is_float:   is_float,
@@ -76,19 +83,11 @@ module setup_depth
       least_code: least_code_i,
       most_code:  most_code_i
     };
-    extremes_d.z      = z_i;
-    extremes_d.z_min  = z_i[0];
-    extremes_d.z_max  = z_i[0];
-    extremes_d.offset = offset_i;
-    extremes_d.field  = exponent_of(offset_i[30:23]);
-    for (int unsigned i = 1; i < 3; i++) begin
-      if (order(z_i[i], is_float) < order(extremes_d.z_min, is_float)) begin
-        extremes_d.z_min = z_i[i];
-      end
-      if (order(z_i[i], is_float) > order(extremes_d.z_max, is_float)) begin
-        extremes_d.z_max = z_i[i];
-      end
-    end
+    extremes_d.z         = z_i;
+    extremes_d.offset    = offset_i;
+    extremes_d.min_index = less20 && less21 ? 2'd2 : less10 ? 2'd1 : 2'd0;
+    extremes_d.max_index = !less20 && !less21 ? 2'd2 : !less10 ? 2'd1 : 2'd0;
+    extremes_d.field     = exponent_of(offset_i[30:23]);
     for (int unsigned i = 0; i < 3; i++) begin
       if (exponent_of(z_i[i][30:23]) > extremes_d.field) begin
         extremes_d.field = exponent_of(z_i[i][30:23]);
@@ -107,11 +106,18 @@ module setup_depth
     .data_o  (extremes_q)
   );
 
-  // Second register: the power of two above all of them, which is 1 in their words.
+  // Second register: the power of two above all of them, which is 1 in their words; how far each is below.
   typedef struct packed {
-    extremes_t extremes;
-    logic      beyond;
-    exponent_t exponent;
+    draw_t               draw;
+    vertex_depth_t [2:0] z;
+    vertex_depth_t       offset;
+    logic [1:0]          min_index;
+    logic [1:0]          max_index;
+    logic                beyond;
+    exponent_t           exponent;
+    down_t [2:0]         down;
+    down_t               offset_down;
+    logic [5:0]          left;  // unorm
   } scale_t;
 
   scale_t scale_d, scale_q;
@@ -120,24 +126,44 @@ module setup_depth
   function automatic logic [VertexDepthBits-1:0] magnitude_of(vertex_depth_t z);
     return z[VertexDepthBits-1] ? -z : z;
   endfunction
+  function automatic down_t down_from(logic [7:0] most, logic [7:0] field);
+    return most - exponent_of(field);
+  endfunction
 
   always_comb begin
     automatic logic [VertexDepthBits-1:0] magnitude;
-    magnitude = magnitude_of(extremes_q.z_min) | magnitude_of(extremes_q.z_max)
-                | magnitude_of(extremes_q.offset);
+    magnitude = magnitude_of(extremes_q.offset);
     scale_d   = '{
-      extremes: extremes_q,
-      beyond:   extremes_q.z_min[VertexDepthBits-1] || extremes_q.z_max >>> UnitBits != '0,
-      exponent: '0
+      draw:        extremes_q.draw,
+      z:           extremes_q.z,
+      offset:      extremes_q.offset,
+      min_index:   extremes_q.min_index,
+      max_index:   extremes_q.max_index,
+      beyond:      1'b0,
+      exponent:    '0,
+      down:        '0,
+      offset_down: down_from(extremes_q.field, extremes_q.offset[30:23]),
+      left:        6'd32
     };
-    for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
-      if (magnitude[i]) begin
-        scale_d.exponent = exponent_t'(i + 1 - UnitBits);
-      end
+    for (int unsigned i = 0; i < 3; i++) begin
+      magnitude       |= magnitude_of(extremes_q.z[i]);
+      scale_d.down[i]  = down_from(extremes_q.field, extremes_q.z[i][30:23]);
     end
     if (extremes_q.draw.is_float) begin
-      scale_d.beyond   = 1'b0;
       scale_d.exponent = exponent_t'({1'b0, extremes_q.field}) - exponent_t'(126);
+    end else begin
+      for (int unsigned i = 0; i < 3; i++) begin
+        scale_d.beyond |= extremes_q.z[i][VertexDepthBits-1:UnitBits] != '0;
+      end
+      for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
+        if (magnitude[i]) begin
+          scale_d.exponent = exponent_t'(i + 1 - UnitBits);
+          scale_d.left     = 6'(32 - (i + 1 - UnitBits));
+        end
+      end
+      if (!scale_d.beyond) begin
+        scale_d.left = 6'd32;
+      end
     end
   end
 
@@ -152,53 +178,44 @@ module setup_depth
     .data_o  (scale_q)
   );
 
-  // Third register: as words. On unorm surfaces all but `z` are the depths as they are.
+  // Third register: as words; the extremes as they are.
   typedef struct packed {
     draw_t               draw;
     word_t [2:0]         z;
-    word_t               z_min;
-    word_t               z_max;
+    vertex_depth_t       z_min;
+    vertex_depth_t       z_max;
+    logic [1:0]          min_index;
+    logic [1:0]          max_index;
     word_t               offset;
-    logic [CodeBits-1:0] min_code; // float32 without an offset: a word may have to cut the depth
-    logic [CodeBits-1:0] max_code;
     logic                beyond;
     exponent_t           exponent;
   } words_t;
 
-  extremes_t from;
-  words_t    words_d, words_q;
-  logic      words_valid;
-
-  assign from = scale_q.extremes;
-
-  logic unused_field;
-  assign unused_field = ^from.field;
+  words_t words_d, words_q;
+  logic   words_valid;
 
   always_comb begin
     words_d = '{
-      draw:     from.draw,
-      z:        '0,
-      z_min:    word_t'(from.z_min),
-      z_max:    word_t'(from.z_max),
-      offset:   word_t'(from.offset),
-      min_code: from.z_min[31] ? '0 : from.z_min[CodeBits-1:0],
-      max_code: from.z_max[31] ? '0 : from.z_max[CodeBits-1:0],
-      beyond:   scale_q.beyond,
-      exponent: scale_q.exponent
+      draw:      scale_q.draw,
+      z:         '0,
+      z_min:     scale_q.z[scale_q.min_index],
+      z_max:     scale_q.z[scale_q.max_index],
+      min_index: scale_q.min_index,
+      max_index: scale_q.max_index,
+      offset:    word_t'(scale_q.offset),
+      beyond:    scale_q.beyond,
+      exponent:  scale_q.exponent
     };
-    if (from.draw.is_float) begin
-      words_d.z_min  = word_of_float(from.z_min[CodeBits-1:0], scale_q.exponent);
-      words_d.z_max  = word_of_float(from.z_max[CodeBits-1:0], scale_q.exponent);
-      words_d.offset = word_of_float(from.offset[CodeBits-1:0], scale_q.exponent);
+    if (scale_q.draw.is_float) begin
+      words_d.offset = word_of_float(scale_q.offset[CodeBits-1:0], scale_q.offset_down);
     end
     for (int unsigned i = 0; i < 3; i++) begin
-      if (!from.draw.has_depth) begin
+      if (!scale_q.draw.has_depth) begin
         words_d.z[i] = '0;
-      end else if (from.draw.is_float) begin
-        words_d.z[i] = word_of_float(from.z[i][CodeBits-1:0], scale_q.exponent);
+      end else if (scale_q.draw.is_float) begin
+        words_d.z[i] = word_of_float(scale_q.z[i][CodeBits-1:0], scale_q.down[i]);
       end else begin
-        words_d.z[i] = word_t'(from.z[i])
-                       <<< (6'd32 - (scale_q.beyond ? 6'(scale_q.exponent) : 6'd0));
+        words_d.z[i] = word_t'(scale_q.z[i]) <<< scale_q.left;
       end
     end
   end
@@ -222,7 +239,7 @@ module setup_depth
     draw_t               draw;
     logic [WordBits-1:0] low;
     logic [WordBits-1:0] high;
-    logic                moved; // else there is no offset, and the codes stand as they are
+    logic                moved; // else float32 codes stand as they are: a word may cut them
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
     word_t               word;
@@ -240,13 +257,22 @@ module setup_depth
     return sum[WordBits] ? '0 : sum[WordBits-1:0];
   endfunction
 
+  function automatic logic [CodeBits-1:0] code_of(logic [CodeBits-1:0] bits);
+    return bits[31] ? '0 : bits;
+  endfunction
+
+  // Of unorm surfaces as they are.
+  word_t least_word, most_word;
+  assign least_word = words_q.draw.is_float ? words_q.z[words_q.min_index] : word_t'(words_q.z_min);
+  assign most_word  = words_q.draw.is_float ? words_q.z[words_q.max_index] : word_t'(words_q.z_max);
+
   assign sums_d = '{
     draw:     words_q.draw,
-    low:      sum_of(words_q.z_min, words_q.offset),
-    high:     sum_of(words_q.z_max, words_q.offset),
+    low:      sum_of(least_word, words_q.offset),
+    high:     sum_of(most_word, words_q.offset),
     moved:    !words_q.draw.is_float || words_q.offset != '0,
-    min_code: words_q.min_code,
-    max_code: words_q.max_code,
+    min_code: code_of(words_q.z_min[CodeBits-1:0]),
+    max_code: code_of(words_q.z_max[CodeBits-1:0]),
     word:     short_o ? words_q.z[0] >>> ShortBits : words_q.z[0],
     offset:   words_q.offset,
     beyond:   words_q.beyond,

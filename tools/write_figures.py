@@ -29,6 +29,7 @@ CAPTURED = " (captured)"
 class Tools(NamedTuple):
     program: pathlib.Path
     reference: pathlib.Path
+    depth_error: pathlib.Path
     captured: Sequence[pathlib.Path]
 
 
@@ -97,6 +98,13 @@ def reference(tools):
     return "\n".join(rows)
 
 
+def depth_error(tools):
+    """The largest errors of depth; takes minutes."""
+    samples = "100000000"
+    text = output(tools.depth_error, "--samples", samples)
+    return f"    halfspace_depth_error --samples {samples}\n\n{text}"
+
+
 def error(tools):
     """The tables that `halfspace bench error` wrote; see the Makefile."""
     text = (ROOT / "out/error/error.md").read_text()
@@ -114,9 +122,11 @@ FIGURES = {
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-analytic": ("docs/guides/time.md", bench_analytic),
     "reference": ("docs/guides/reference.md", reference),
+    "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
 }
-ALL = [name for name in FIGURES if name != "bench-error"]  # which needs the RTL: `make bench-error`
+# The others need the RTL or many minutes: `make bench-error`, `make depth-error`.
+ALL = [name for name in FIGURES if name not in ("depth-error", "bench-error")]
 
 
 def main():
@@ -124,12 +134,15 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last)")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last two)")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
     parser.add_argument(
         "--reference", type=pathlib.Path, default=build / "model/halfspace/reference/halfspace_reference"
+    )
+    parser.add_argument(
+        "--depth-error", type=pathlib.Path, default=build / "tests/depth_error/halfspace_depth_error"
     )
     parser.add_argument(
         "--captured",
@@ -141,7 +154,9 @@ def main():
     )
     options = parser.parse_args()
     captured = [path.resolve() for path in options.captured]
-    tools = Tools(options.program.resolve(), options.reference.resolve(), captured)
+    tools = Tools(
+        options.program.resolve(), options.reference.resolve(), options.depth_error.resolve(), captured
+    )
     stale = False
     for name in options.figures:
         if name not in FIGURES:

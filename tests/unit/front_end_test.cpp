@@ -198,20 +198,23 @@ TEST_CASE("front_end: with depth clamp vertices keep depths beyond the range, an
 // One that is too far for a vertex depth: the plane's value at each sample, in one piece or another.
 TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") {
   const DepthFormat format = GENERATE(DepthFormat::kUnorm24, DepthFormat::kFloat32);
-  const float far = GENERATE(40000.0f, -3e6f, 6e7f);
+  const float far = GENERATE(40000.0f, -3e6f, 6e7f, 1e20f);
   const Processed p = process({{{-1, -1, 0.5f, 1}, {1, -1, far, 1}, {-1, 1, -2 * far, 1}}},
                               bits({Flag::kDepthClamp}), format);
   CHECK(p.counters.far_depth == 1);
   CHECK(p.counters.emitted == p.triangles.size());
-  int seen = 0;
+  std::array<int, 64 * 64> pieces{};
   for (const ScreenTriangle& t : p.triangles) {
     REQUIRE((t.v[0].x == 0 && t.v[0].y == 0 && t.v[1].x == 64 * 256 && t.v[2].y == 64 * 256));
     REQUIRE((t.v[0].z == t.v[1].z && t.v[0].z == t.v[2].z && t.offset == 0));
     for (int y = t.within.y_first; y <= t.within.y_last; ++y) {
       for (int x = t.within.x_first; x <= t.within.x_last; ++x) {
-        ++seen;
         const double u = (x + 0.5) / 64;
         const double w = (y + 0.5) / 64;
+        if (u + w > 1) {
+          continue;  // not covered
+        }
+        ++pieces.at(static_cast<std::size_t>(y * 64 + x));
         const double z = std::clamp(0.5 * (1 - u - w) + far * u - 2.0 * far * w, 0.0, 1.0);
         const double got = format == DepthFormat::kFloat32
                                ? std::bit_cast<float>(static_cast<std::uint32_t>(t.v[0].z))
@@ -220,5 +223,36 @@ TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") 
       }
     }
   }
-  CHECK(seen == 64 * 64);  // every pixel of the box is in one piece
+  CHECK(std::ranges::count(pieces, 1) == 64 * 65 / 2);
+  CHECK(std::ranges::count(pieces, 0) == 64 * 63 / 2);
+}
+
+// Vertices at 0, so that centres of pixels lie where depth is 0 or next to it.
+TEST_CASE("front_end: float32 depth next to 0 is resolved sample by sample, the rest left as it is") {
+  // 0 along y = 15.5 pixels: a row of centres; next to 0 on it
+  const float tiny = GENERATE(0.0f, 1e-30f);
+  const float y = 2 * 15.5f / 64 - 1;
+  const Processed p = process({{{-1, y, 0, 1}, {1, y, tiny, 1}, {-1, 1, 1, 1}}}, 0, DepthFormat::kFloat32);
+  CHECK(p.counters.tiny_depth == 1);
+  CHECK(p.counters.emitted == p.triangles.size());
+  int flat = 0;
+  std::array<int, 64 * 64> pieces{};
+  for (const ScreenTriangle& t : p.triangles) {
+    REQUIRE((t.v[0].x == 0 && t.v[1].x == 64 * 256 && t.v[2].y == 64 * 256));
+    for (int row = t.within.y_first; row <= t.within.y_last; ++row) {
+      for (int x = t.within.x_first; x <= t.within.x_last; ++x) {
+        ++pieces.at(static_cast<std::size_t>(row * 64 + x));
+        if (row == 15) {
+          ++flat;
+          const float z = std::bit_cast<float>(static_cast<std::uint32_t>(t.v[0].z));
+          REQUIRE((t.v[0].z == t.v[1].z && t.v[0].z == t.v[2].z));
+          REQUIRE(z == Approx(tiny * (x + 0.5) / 64).epsilon(1e-6));
+        } else {
+          REQUIRE(t.v[2].z == std::bit_cast<std::uint32_t>(1.0f));
+        }
+      }
+    }
+  }
+  CHECK(flat == 64);
+  CHECK(std::ranges::count(pieces, 1) == 64 * (64 - 15));
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "halfspace/scene/far_depth.hpp"
+#include "halfspace/scene/depth_by_sample.hpp"
 
 namespace halfspace {
 namespace {
@@ -122,13 +122,13 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
         depth = std::clamp(depth, z_least_, z_most_);  // clipped to it, up to rounding
       }
     }
+    const SampleGrid grid{.sub_pixel_bits = sub_pixel_bits_, .screen = screen_};
     const double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
     if (is_far(offset) || std::ranges::any_of(z, is_far)) {
       for (double& depth : z) {
         depth += offset;
       }
-      counters.emitted +=
-          emit_by_sample(triangle, z, {z_least_, z_most_}, format_, sub_pixel_bits_, screen_, out);
+      counters.emitted += emit_far(triangle, z, {z_least_, z_most_}, format_, grid, out);
       ++counters.far_depth;
       return;
     }
@@ -136,6 +136,17 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       triangle.v[i].z = vertex_depth_code(format_, z[i]);
     }
     triangle.offset = vertex_depth_code(format_, offset);
+    if (format_ == DepthFormat::kFloat32) {
+      for (double& depth : z) {
+        depth = static_cast<float>(depth);
+      }
+      if (may_be_tiny(z)) {
+        const std::size_t pieces = emit_tiny(triangle, z, grid, out);
+        counters.emitted += pieces;
+        counters.tiny_depth += pieces > 1 ? 1 : 0;
+        return;
+      }
+    }
   }
   out.push_back(triangle);
   ++counters.emitted;
