@@ -234,11 +234,13 @@ module setup_depth
     .data_o  (words_q)
   );
 
-  // Fourth register: with the offset. What is negative is 0; unorm sums are far below the word's range.
+  // Fourth register: with the offset. Unorm sums are far below the word's range.
+  typedef logic signed [WordBits:0] sum_t;
+
   typedef struct packed {
     draw_t               draw;
-    logic [WordBits-1:0] low;
-    logic [WordBits-1:0] high;
+    sum_t                low;
+    sum_t                high;
     logic                moved; // else float32 codes stand as they are: a word may cut them
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
@@ -251,12 +253,6 @@ module setup_depth
   sums_t sums_d, sums_q;
   logic  sums_valid;
 
-  function automatic logic [WordBits-1:0] sum_of(word_t z, word_t offset);
-    logic signed [WordBits:0] sum;
-    sum = (WordBits + 1)'(z) + (WordBits + 1)'(offset);
-    return sum[WordBits] ? '0 : sum[WordBits-1:0];
-  endfunction
-
   function automatic logic [CodeBits-1:0] code_of(logic [CodeBits-1:0] bits);
     return bits[31] ? '0 : bits;
   endfunction
@@ -268,8 +264,8 @@ module setup_depth
 
   assign sums_d = '{
     draw:     words_q.draw,
-    low:      sum_of(least_word, words_q.offset),
-    high:     sum_of(most_word, words_q.offset),
+    low:      sum_t'(least_word) + sum_t'(words_q.offset),
+    high:     sum_t'(most_word) + sum_t'(words_q.offset),
     moved:    !words_q.draw.is_float || words_q.offset != '0,
     min_code: code_of(words_q.z_min[CodeBits-1:0]),
     max_code: code_of(words_q.z_max[CodeBits-1:0]),
@@ -290,7 +286,8 @@ module setup_depth
     .data_o  (sums_q)
   );
 
-  // Fifth register: float32 sums with their top bit at bit 63; unorm codes, which a large sum is beyond.
+  // Fifth register: 0 for what is negative; float32 sums with their top bit at bit 63; unorm codes, which a large sum
+  // is beyond.
   typedef struct packed {
     draw_t               draw;
     normalized_t         low;
@@ -306,17 +303,23 @@ module setup_depth
 
   codes_t codes_d, codes_q;
 
-  function automatic logic [CodeBits-1:0] unorm_code(logic [WordBits-1:0] sum, logic unorm16);
+  function automatic logic [CodeBits-1:0] unorm_code(sum_t sum, logic unorm16);
     logic [WordBits-1:0] code;
-    code = unorm16 ? (sum + WordBits'(1 << 14)) >> 15 : (sum + WordBits'(1 << 6)) >> 7;
-    return code >> CodeBits != '0 ? '1 : code[CodeBits-1:0];
+    code = sum[WordBits-1:0] + (unorm16 ? WordBits'(1 << 14) : WordBits'(1 << 6));
+    code = unorm16 ? code >> 15 : code >> 7;
+    return sum[WordBits] ? '0 : code >> CodeBits != '0 ? '1 : code[CodeBits-1:0];
+  endfunction
+  function automatic normalized_t normalize_sum(sum_t sum);
+    normalized_t result;
+    result = normalize(sum[WordBits-1:0]);
+    return sum[WordBits] ? '0 : result;
   endfunction
 
   always_comb begin
     codes_d = '{
       draw:     sums_q.draw,
-      low:      normalize(sums_q.low),
-      high:     normalize(sums_q.high),
+      low:      normalize_sum(sums_q.low),
+      high:     normalize_sum(sums_q.high),
       moved:    sums_q.moved,
       min_code: sums_q.min_code,
       max_code: sums_q.max_code,

@@ -20,19 +20,40 @@ import re
 import sys
 import time
 from collections import Counter
+from collections.abc import Sequence
 from datetime import date
+from typing import NamedTuple
 
 from mutant_bench import PipelineBench, Stillborn, UnitBench, find, models_of, show
 from mutants import ROOT, RTL, Equivalents, Sources, change_of, is_activity, mutants_of
 
-# Of each unit the models that a mutant must survive, and the options of a short run of all cases.
-DEFAULTS = {
-    "setup": (["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
-    "tile_walker": (["t8_b32", "t4_b64", "t16_b32_noblocks", "t4_b8_noreject"], ["--tiles", "40000"]),
-    "quad_generator": (["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
-    "edge_evaluator": (["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
-    "early_z": (["t4", "parts"], ["--bursts", "32000"]),
-    "raster_pipeline": (["small_no_dfg"], ["--triangles", "20000"]),
+
+
+class Group(NamedTuple):
+    """Sources that one set of models tells from their mutants."""
+
+    unit: str  # whose bench
+    models: Sequence[str]  # that a mutant must survive
+    arguments: Sequence[str]  # of the bench, for a short run of all cases
+    files: Sequence[str] = ()  # modules; none: all of the unit that no other group has
+
+
+GROUPS = {
+    "setup": Group("setup", ["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
+    "setup_plane": Group(
+        "setup",
+        ["plane_t8_s8", "plane_t4_s4_i4"],
+        ["--tiles", "12000"],
+        ["setup_plane", "quotient_digits", "setup_depth"],
+    ),
+    "tile_walker": Group(
+        "tile_walker", ["t8_b32", "t4_b64", "t16_b32_noblocks", "t4_b8_noreject"], ["--tiles", "40000"]
+    ),
+    "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
+    "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
+    "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
+    "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
+    "raster_pipeline": Group("raster_pipeline", ["small_no_dfg"], ["--triangles", "20000"]),
 }
 SURVIVED = "**survived**"
 HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
@@ -70,11 +91,18 @@ def row_of(mutant):
     return f"| {mutant.file}.sv:{change.line} | {mutant.kind} | `{code[0]}` | `{code[1]}` |"
 
 
-def mutants_for(bench, files):
-    """The bench's: the pipeline's are its own modules, and of the units what their benches miss."""
+def mutants_for(bench, options):
+    """The group's: the pipeline's are its own modules, and of the units what their benches miss."""
     own = {"raster_pipeline", "cycle_counters"}
+    files = options.file or GROUPS[options.group].files
+    of_others = {
+        name
+        for key, group in GROUPS.items()
+        if group.unit == bench.unit and key != options.group
+        for name in group.files
+    }
     for name in bench.sources:
-        if files and name not in files:
+        if name not in files if files else name in of_others:
             continue
         for mutant in mutants_of(name):
             if is_activity(mutant) == (bench.unit == "raster_pipeline") or name in own:
@@ -98,7 +126,7 @@ def found_before(page, unit):
 def write_page(page, unit, text):
     head, units = sections(page)
     units[unit] = text
-    order = [name for name in DEFAULTS if name in units]
+    order = [name for name in GROUPS if name in units]
     table = [
         "| unit | live | killed | equivalent | survived | stillborn |",
         "| --- | ---: | ---: | ---: | ---: | ---: |",
@@ -120,24 +148,24 @@ def parse_command_line(own):
         arguments = own[own.index("--") + 1 :]
         own = own[: own.index("--")]
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("unit", choices=DEFAULTS, help="a unit's bench, or the pipeline's")
+    parser.add_argument("group", choices=GROUPS, help="a unit, a part of it, or the pipeline")
     parser.add_argument("--count", type=int, default=16, help="live mutants, 0 for all (default 16)")
     parser.add_argument("--seed", type=int, default=1, help="chooses the mutants (default 1)")
     parser.add_argument("--file", action="append", help="only of this module, repeatable")
-    parser.add_argument("--model", action="append", help="to run, repeatable (default: by unit)")
+    parser.add_argument("--model", action="append", help="to run, repeatable (default: by group)")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--rtl", type=pathlib.Path, default=RTL, help="another copy of the sources")
     parser.add_argument("--limit", type=float, default=120, help="seconds for a run (default 120)")
-    parser.add_argument("--page", type=pathlib.Path, help="Markdown file whose part of the unit is written")
+    parser.add_argument("--page", type=pathlib.Path, help="Markdown file whose part of the group is written")
     parser.add_argument(
         "--keep", action="store_true", help="do not run again what the page has as found, by place and text"
     )
     parser.add_argument("--list", action="store_true", help="list the mutants, run nothing")
     parser.epilog = "What follows -- are options of the bench."
     options = parser.parse_args(own)
-    names, default_arguments = DEFAULTS[options.unit]
-    options.model = options.model or names
-    return options, arguments or default_arguments
+    group = GROUPS[options.group]
+    options.model = options.model or group.models
+    return options, arguments or list(group.arguments)
 
 
 class Failed(Exception):
@@ -153,7 +181,7 @@ class Campaign:
         self.models = models
         self.arguments = arguments
         self.equivalents = equivalents
-        self.known = found_before(options.page, options.unit) if options.keep else {}
+        self.known = found_before(options.page, options.group) if options.keep else {}
         self.counts = Counter()
         self.refused = Counter()
         self.rows = []
@@ -192,12 +220,12 @@ class Campaign:
         return f"equivalent: {reason}"
 
     def summary(self, mutants):
-        """The unit's part of the page, by lines."""
+        """The group's part of the page, by lines."""
         keys = ("live", "killed", "equivalent", "survived", "stillborn")
         numbers = ", ".join(f"{key} {self.counts[key]}" for key in keys)
         why = ", ".join(f"{reason} {count}" for reason, count in self.refused.most_common())
         options = self.options
-        command = f"tools/mutate.py {options.unit} --count {options.count} --seed {options.seed}"
+        command = f"tools/mutate.py {options.group} --count {options.count} --seed {options.seed}"
         command += "".join(f" --file {name}" for name in options.file or [])
         models = ", ".join(model.name for model in self.models)
         return [
@@ -228,9 +256,10 @@ def main():
     options, arguments = parse_command_line(sys.argv[1:])
     Sources.folder = options.rtl.resolve()
     build = options.build.resolve()
-    bench = PipelineBench(build) if options.unit == "raster_pipeline" else UnitBench(options.unit, build)
+    unit = GROUPS[options.group].unit
+    bench = PipelineBench(build) if unit == "raster_pipeline" else UnitBench(unit, build)
     models = models_of(bench, options.model)
-    mutants = list(mutants_for(bench, options.file))
+    mutants = list(mutants_for(bench, options))
     if options.list:
         print("\n".join(map(row_of, mutants)))
         return 0
@@ -245,7 +274,7 @@ def main():
     text = campaign.summary(mutants)
     print("\n".join(text[1:4]))
     if options.page:
-        write_page(options.page, options.unit, "\n".join(text))
+        write_page(options.page, options.group, "\n".join(text))
     return 1 if campaign.counts["survived"] else 0
 
 
