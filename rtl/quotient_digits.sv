@@ -1,7 +1,7 @@
 // A step of a long division by a number whose reciprocal is known: 28 bits of the quotient.
 //
 // Three registers, one division a cycle. The top bits of the remainder times the reciprocal are the digits, or one more
-// or less; their product with the divisor is taken away; what is left says which.
+// or less; their product with the divisor is taken away; what remains says which.
 
 module quotient_digits #(
   /// Bits of the divisor, 32 or more; its top bit is set.
@@ -42,8 +42,14 @@ module quotient_digits #(
 
   // What remains is less than two divisors either way, so higher bits of part and product cannot matter.
   localparam int unsigned RestBits = Width + 2;
-  logic [Digits:0]     digits1_q, digits2_q;
-  logic [RestBits-1:0] part1_q, part2_q, product_q;
+
+  typedef logic signed [RestBits-1:0] rest_t;
+  typedef logic [Digits-1:0] digits_t;
+
+  logic [Digits:0]     digits1_q; // 2^Digits is one too many
+  digits_t             digits2_q;
+  logic [RestBits-1:0] part1_q;
+  rest_t               rest_q;
   logic [Width-1:0]    divisor1_q, divisor2_q;
   logic [Left-1:0]     dividend1_q, dividend2_q;
   logic [Kept-1:0]     quotient1_q, quotient2_q;
@@ -58,44 +64,43 @@ module quotient_digits #(
     end
   end
 
-  // Second: the product.
+  // Second: what remains.
   always_ff @(posedge clk_i) begin
     if (valid_q[0]) begin
-      digits2_q   <= digits1_q;
-      product_q   <= RestBits'(digits1_q) * RestBits'(divisor1_q);
-      part2_q     <= part1_q;
+      digits2_q   <= digits_t'(digits1_q);
+      rest_q      <= rest_t'(part1_q - RestBits'(digits1_q) * RestBits'(divisor1_q));
       divisor2_q  <= divisor1_q;
       dividend2_q <= dividend1_q;
       quotient2_q <= quotient1_q;
     end
   end
 
-  // Third: the remainder, with one divisor more or less where the estimate was off.
-  logic signed [RestBits-1:0] rest, less, more;
-  assign rest = part2_q - product_q;
-  assign less = part2_q - product_q - RestBits'(divisor2_q);
-  assign more = part2_q - product_q + RestBits'(divisor2_q);
+  // Third: one divisor more or less where the estimate was off. The digits that are right have no carry.
+  rest_t   less, more;
+  digits_t digits;
+  assign less = rest_q - rest_t'({1'b0, divisor2_q});
+  assign more = rest_q + rest_t'({1'b0, divisor2_q});
 
-  logic [Kept-1:0] shifted;
-  assign shifted = quotient2_q << Digits;
+  always_comb begin
+    if (rest_q < 0) begin
+      digits = digits2_q - digits_t'(1);
+    end else if (less >= 0) begin
+      digits = digits2_q + digits_t'(1);
+    end else begin
+      digits = digits2_q;
+    end
+  end
 
   always_ff @(posedge clk_i) begin
     if (valid_q[1]) begin
-      dividend_o <= dividend2_q;
-      if (rest < 0) begin
-        remainder_o <= more[Width-1:0];
-        quotient_o  <= shifted + Kept'(digits2_q) - Kept'(1);
-      end else if (less >= 0) begin
-        remainder_o <= less[Width-1:0];
-        quotient_o  <= shifted + Kept'(digits2_q) + Kept'(1);
-      end else begin
-        remainder_o <= rest[Width-1:0];
-        quotient_o  <= shifted + Kept'(digits2_q);
-      end
+      dividend_o  <= dividend2_q;
+      quotient_o  <= {quotient2_q[Kept-Digits-1:0], digits};
+      remainder_o <= rest_q < 0 ? more[Width-1:0] : less >= 0 ? less[Width-1:0] : rest_q[Width-1:0];
     end
   end
 
   logic unused_rest;
-  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[63-Digits-1:0]};
+  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[63-Digits-1:0],
+                         quotient2_q[Kept-1:Kept-Digits]};
 
 endmodule

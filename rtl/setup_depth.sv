@@ -1,8 +1,8 @@
 // What the depths of a triangle are together: the range of its stored codes, the power of two above them all, and its
 // polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
 //
-// Seven registers, one triangle a cycle: the extremes; the power of two; the extremes and the offset as words; sums with
-// the offset; normalized; where to round; codes.
+// Eight registers, one triangle a cycle: the extremes; the power of two; the extremes and the offset as words; sums with
+// the offset; normalized; where to round; codes; limits.
 
 module setup_depth
   import raster_pkg::*;
@@ -22,7 +22,7 @@ module setup_depth
   output word_t [2:0]           words_o,
   output logic                  short_o,
 
-  // Seven cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
+  // Eight cycles later; 0 where there is no depth surface. `word_o` is that of vertex 0, as it is.
   output logic                  valid_o,
   output word_t                 word_o,
   output logic                  beyond_o,
@@ -378,8 +378,10 @@ module setup_depth
     .data_o  (rounding_q)
   );
 
-  // Seventh register: float32 codes, and both kept within the limits.
+  // Seventh register: the codes.
   typedef struct packed {
+    logic [CodeBits-1:0] least_code;
+    logic [CodeBits-1:0] most_code;
     word_t               word;
     logic                beyond;
     exponent_t           exponent;
@@ -388,6 +390,44 @@ module setup_depth
     logic [CodeBits-1:0] max_code;
   } range_t;
 
+  range_t rounded_d, rounded_q;
+  logic   rounded_valid;
+
+  codes_t last;
+  assign last = rounding_q.codes;
+
+  always_comb begin
+    rounded_d = '0;
+    if (last.draw.has_depth) begin
+      rounded_d = '{
+        least_code: last.draw.least_code,
+        most_code:  last.draw.most_code,
+        word:       last.word,
+        beyond:     last.beyond,
+        exponent:   last.exponent,
+        offset:     last.offset,
+        min_code:   last.min_code,
+        max_code:   last.max_code
+      };
+      if (last.draw.is_float && last.moved) begin
+        rounded_d.min_code = rounded_float(last.low.value, rounding_q.low);
+        rounded_d.max_code = rounded_float(last.high.value, rounding_q.high);
+      end
+    end
+  end
+
+  pipe_register #(
+    .Width ($bits(range_t))
+  ) u_rounded (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (rounding_valid),
+    .data_i  (rounded_d),
+    .valid_o (rounded_valid),
+    .data_o  (rounded_q)
+  );
+
+  // Eighth register: both codes within the limits.
   range_t range_d, range_q;
 
   function automatic logic [CodeBits-1:0] limited(logic [CodeBits-1:0] code,
@@ -396,25 +436,10 @@ module setup_depth
     return code < least ? least : code > most ? most : code;
   endfunction
 
-  codes_t last;
-  assign last = rounding_q.codes;
-
   always_comb begin
-    automatic logic from_sum;
-    from_sum = last.draw.is_float && last.moved;
-    range_d  = '0;
-    if (last.draw.has_depth) begin
-      range_d.word     = last.word;
-      range_d.beyond   = last.beyond;
-      range_d.exponent = last.exponent;
-      range_d.offset   = last.offset;
-      range_d.min_code = limited(
-          from_sum ? rounded_float(last.low.value, rounding_q.low) : last.min_code,
-          last.draw.least_code, last.draw.most_code);
-      range_d.max_code = limited(
-          from_sum ? rounded_float(last.high.value, rounding_q.high) : last.max_code,
-          last.draw.least_code, last.draw.most_code);
-    end
+    range_d          = rounded_q;
+    range_d.min_code = limited(rounded_q.min_code, rounded_q.least_code, rounded_q.most_code);
+    range_d.max_code = limited(rounded_q.max_code, rounded_q.least_code, rounded_q.most_code);
   end
 
   pipe_register #(
@@ -422,7 +447,7 @@ module setup_depth
   ) u_range (
     .clk_i   (clk_i),
     .rst_ni  (rst_ni),
-    .valid_i (rounding_valid),
+    .valid_i (rounded_valid),
     .data_i  (range_d),
     .valid_o (valid_o),
     .data_o  (range_q)
@@ -434,5 +459,8 @@ module setup_depth
   assign offset_o   = range_q.offset;
   assign min_code_o = range_q.min_code;
   assign max_code_o = range_q.max_code;
+
+  logic unused_limits;
+  assign unused_limits = ^{range_q.least_code, range_q.most_code};
 
 endmodule
