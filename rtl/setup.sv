@@ -107,7 +107,7 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 3 and 8 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
+  // The parts of a slot: at the decision, 4 and 8 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
   // later.
   typedef struct packed {
     vertex_depth_t [2:0] z;

@@ -1,7 +1,7 @@
 // Edge equations of a drawn triangle at the pixel where its walk starts.
 //
-// Three registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2. The
-// three unbiased E add up to 2A everywhere, which gives that of edge 0. Four multipliers of StepBits.
+// Four registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2; E of edge
+// 0, and the fill rule. The three unbiased E add up to 2A everywhere. Four multipliers of StepBits.
 
 module setup_edges
   import raster_pkg::*;
@@ -22,7 +22,7 @@ module setup_edges
   input  bounds_t               bounds_i,
   input  logic                  bottom_left_rule_i,
 
-  // Three cycles later.
+  // Four cycles later.
   output logic                  valid_o,
   output edge_t [2:0]           e_o,
   output step_t [2:0]           a_o,
@@ -138,6 +138,7 @@ module setup_edges
   } sums_t;
 
   sums_t sums_d, sums_q;
+  logic  sums_valid;
 
   always_comb begin
     sums_d.a     = products_q.a;
@@ -156,18 +157,46 @@ module setup_edges
     .rst_ni  (rst_ni),
     .valid_i (products_valid),
     .data_i  (sums_d),
-    .valid_o (valid_o),
+    .valid_o (sums_valid),
     .data_o  (sums_q)
   );
 
-  edge_t e0;
+  // Fourth register.
+  typedef struct packed {
+    step_t [2:0] a;
+    step_t [2:0] b;
+    edge_t [2:0] e;
+    logic [2:0]  bias;
+  } edges_t;
+
+  edges_t edges_d, edges_q;
+  edge_t  e0;
+
   assign e0 = edge_t'({1'b0, sums_q.area2}) - sums_q.e[0] - sums_q.e[1];
 
-  assign e_o[0]     = e0 - edge_t'({1'b0, sums_q.bias[0]});
-  assign e_o[1]     = sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
-  assign e_o[2]     = sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
-  assign a_o    = sums_q.a;
-  assign b_o    = sums_q.b;
-  assign bias_o = sums_q.bias;
+  always_comb begin
+    edges_d.a    = sums_q.a;
+    edges_d.b    = sums_q.b;
+    edges_d.bias = sums_q.bias;
+    edges_d.e[0] = e0 - edge_t'({1'b0, sums_q.bias[0]});
+    edges_d.e[1] = sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
+    edges_d.e[2] = sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
+  end
+
+  pipe_register #(
+    .Width ($bits(edges_t))
+  ) u_edges (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (sums_valid),
+    .data_i  (edges_d),
+    .valid_o (valid_o),
+    .data_o  (edges_q)
+  );
+
+  assign e_o    = edges_q.e;
+  assign a_o    = edges_q.a;
+  assign b_o    = edges_q.b;
+  assign bias_o = edges_q.bias;
 
 endmodule

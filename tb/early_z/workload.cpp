@@ -181,9 +181,10 @@ class Maker {
                            .clear_code = surface.clear_code,
                            .first_tile = surface.place.first_tile,
                            .tiles_x = static_cast<std::uint16_t>(surface.place.tiles_x - 1)};
-    // What touches no depth may be anywhere on the screen, and needs no surface.
+    // What touches no depth may be anywhere on the screen, and needs no surface. But a plane is where its
+    // triangle is.
     std::optional<std::array<std::uint16_t, 2>> place;
-    if (!touches_depth(state)) {
+    if (!touches_depth(state) && (none || state.interpolator == DepthInterpolator::kBarycentric)) {
       place = {random_tile(), random_tile()};
       packet.first_tile = static_cast<std::uint32_t>(random_.bits());
       packet.tiles_x = random_tile();
