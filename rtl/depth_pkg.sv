@@ -9,6 +9,12 @@ package depth_pkg;
   parameter int unsigned Plane = 0;
   parameter int unsigned Barycentric = 1;
 
+  // Bits of depth_equation_t: the last are of both interpolators, those before of the plane, the first of the barycentric
+  // one.
+  parameter int unsigned CommonBits = FlagBits + ExponentBits + WordBits + 2 * CodeBits;
+  parameter int unsigned PlaneBits = 4 * HalfGradientBits + WordBits + 2 * CoordBits;
+  parameter int unsigned BarycentricBits = $bits(depth_equation_t) - PlaneBits - CommonBits;
+
   // A gradient of the plane: a word and below it bits that an origin of a tile needs.
   parameter int unsigned GradientFraction = 22;
   parameter int unsigned GradientBits = 2 * HalfGradientBits;

@@ -300,9 +300,10 @@ module depth_plane
 
   assign code_o = last_q.has_depth ? code : '0;
 
-  logic unused;
-  assign unused = ^{valid[10:9], last_q.is_float, last_q.is_unorm16, last_q.beyond, last_q.exponent,
-                    last_q.offset, equation_i.a, equation_i.b, equation_i.z, equation_i.bias,
-                    equation_i.area2, equation_i.reciprocal, equation_i.shift};
+  logic unused_fields;
+  assign unused_fields = ^{valid[10:9], last_q.is_float, last_q.is_unorm16, last_q.beyond,
+                           last_q.exponent, last_q.offset, equation_i.a, equation_i.b, equation_i.z,
+                           equation_i.bias, equation_i.area2, equation_i.reciprocal,
+                           equation_i.shift};
 
 endmodule

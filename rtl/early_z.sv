@@ -125,10 +125,14 @@ module early_z
     logic [CodeBits-1:0]   clear_code;
   } test_state_t;
 
+  // Of the depth equation what the interpolator takes.
+  localparam int unsigned OwnBits = Interpolator == Plane ? PlaneBits : BarycentricBits;
+  localparam int unsigned EquationBits = OwnBits + CommonBits;
+
   typedef struct packed {
-    depth_equation_t       equation;
-    logic [FormatBits-1:0] format;
-    test_state_t           state;
+    logic [EquationBits-1:0] equation;
+    logic [FormatBits-1:0]   format;
+    test_state_t             state;
   } triangle_t;
 
   lookup_state_t write_lookup, lookup_state;
@@ -144,8 +148,21 @@ module early_z
     first_tile: TileBits'(slot_state_i.first_tile),
     tiles_x:    slot_state_i.tiles_x
   };
+  logic [EquationBits-1:0] write_equation;
+  depth_equation_t         equation;
+
+  if (Interpolator == Plane) begin : gen_plane_equation
+    assign write_equation = slot_equation_i[EquationBits-1:0];
+    assign equation       = depth_equation_t'(triangle.equation);
+  end else begin : gen_barycentric_equation
+    assign write_equation = {slot_equation_i[$bits(depth_equation_t)-1-:BarycentricBits],
+                             slot_equation_i[CommonBits-1:0]};
+    assign equation       = {triangle.equation[CommonBits+:BarycentricBits], {PlaneBits{1'b0}},
+                             triangle.equation[CommonBits-1:0]};
+  end
+
   assign write_triangle = '{
-    equation: slot_equation_i,
+    equation: write_equation,
     format:   slot_state_i.format,
     state:    '{
       touches:    touches,
@@ -157,8 +174,8 @@ module early_z
     }
   };
 
-  logic unused_state;
-  assign unused_state = ^slot_state_i;
+  logic unused_fields;
+  assign unused_fields = ^{slot_state_i, slot_equation_i};
 
   sync_ram #(
     .Width ($bits(lookup_state_t)),
@@ -409,7 +426,7 @@ module early_z
     .clk_i      (clk_i),
     .valid_i    (valid_q[0]),
     .format_i   (triangle.format),
-    .equation_i (triangle.equation),
+    .equation_i (equation),
     .tile_x_i   (issued_q.tile_x),
     .tile_y_i   (issued_q.tile_y),
     .e_i        (issued_e_q),

@@ -34,11 +34,14 @@ module quotient_digits #(
     valid_q <= {valid_q[0], valid_i};
   end
 
-  // First: the estimate.
+  // First: the estimate. Cutting the part, the divisor and its reciprocal to 32 bits makes up to 1/8 of a digit each, and
+  // leaving away the product of lower halves another 1/8: so the digits are right, or one more or less.
   logic [PartBits-1:0] part;
-  logic [63:0]         estimate;
+  logic [31:0]         top;
+  logic [47:0]         estimate;
   assign part     = {remainder_i, dividend_i[Left-1-:Digits]};
-  assign estimate = part[PartBits-1-:32] * reciprocal_i;
+  assign top      = part[PartBits-1-:32];
+  assign estimate = 48'(top[31:16]) * 48'(reciprocal_i) + 48'(top[15:0]) * 48'(reciprocal_i[31:16]);
 
   // What remains is less than two divisors either way, so higher bits of part and product cannot matter.
   localparam int unsigned RestBits = Width + 2;
@@ -56,7 +59,7 @@ module quotient_digits #(
 
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
-      digits1_q   <= estimate[63-:Digits+1];
+      digits1_q   <= estimate[47-:Digits+1];
       part1_q     <= part[RestBits-1:0];
       divisor1_q  <= divisor_i;
       dividend1_q <= dividend_i << Digits;
@@ -100,7 +103,7 @@ module quotient_digits #(
   end
 
   logic unused_rest;
-  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[63-Digits-1:0],
+  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[47-Digits-1:0],
                          quotient2_q[Kept-1:Kept-Digits]};
 
 endmodule

@@ -5,8 +5,8 @@
 //
 // One triangle a cycle. Seven registers: steps of the edges, thrice; differences of depth; products; sums; magnitudes.
 // They wait for the reciprocal of 2A. Then one register in which 2A has its top bit set and the numerators have moved
-// along, four steps of the division of three each, and one for the sign. Eight multipliers for the division, four for
-// the numerators.
+// along, four steps of the division of three each, and one for the sign. Four multipliers for the numerators, three in
+// each step of each division.
 
 module setup_plane
   import raster_pkg::*;

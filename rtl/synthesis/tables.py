@@ -15,6 +15,25 @@ LISTED = [
     ("quad_generator", "tile_size=8 quad_width=4"),
     ("early_z", "test_width=1"),
 ]
+# The default machine by interpolator: its parts and how many. early_z with four barycentric quads takes abc too long; it has
+# at least the samples of three quads more than with one.
+MACHINE = {
+    interpolator: [
+        (1, "setup", f"sub_pixel_bits=8 Interval=1 Interpolator={number}"),
+        (1, "tile_walker", "tile_size=8 sub_pixel_bits=8"),
+        (1, "edge_evaluator", "tile_size=8 sub_pixel_bits=8"),
+        (1, "quad_generator", "tile_size=8 quad_width=4"),
+        *early_z,
+    ]
+    for interpolator, number, early_z in (
+        ("plane", 0, [(1, "early_z", "test_width=4 Interpolator=0")]),
+        (
+            "barycentric",
+            1,
+            [(1, "early_z", "test_width=1 Interpolator=1"), (12, "barycentric_sample", "defaults")],
+        ),
+    )
+}
 ECP5_CELLS = ["LUT4", "CCU2C", "TRELLIS_FF", "MULT18X18D", "DP16KD", "TRELLIS_DPR16X4"]
 
 
@@ -62,6 +81,7 @@ def write(docs: pathlib.Path, run: Run) -> None:
     _replace(
         docs / "hardware.md",
         {
+            "machine": _machine(kept["osu018"]),
             "osu018": _library(kept["osu018"]),
             "ecp5": _ecp5(kept["ecp5"]),
             "memories": _memories(kept["ecp5"]),
@@ -95,6 +115,27 @@ def _library(entries: list[dict]) -> str:
         path = [str(e["path"]["ns"]), f"`{e['path']['from']}`", f"`{e['path']['to']}`"]
         words = [_memory_words(e["memories"]), str(len(e["multipliers"]))]
         rows.append([e["top"], e["configuration"], *figures, *words, *path])
+    return _table(head, rows)
+
+
+def _machine(entries: list[dict]) -> str:
+    """The parts of the default machine and their sum, as far as all of them have been measured."""
+    head = ["interpolator", "part", "gates", "flip-flops", "path, ns"]
+    measured = {(e["top"], e["configuration"]): e for e in entries}
+    rows = []
+    for interpolator, parts in MACHINE.items():
+        if any((top, label) not in measured for _, top, label in parts):
+            continue
+        gates, flip_flops, path = 0, 0, 0.0
+        for count, top, label in parts:
+            entry = measured[top, label]
+            gates += count * entry["gates"]
+            flip_flops += count * entry["flip_flops"]
+            path = max(path, entry["path"]["ns"])
+            name = f"{top}, {label}" + (f", {count} of them" if count > 1 else "")
+            figures = (count * entry["gates"], count * entry["flip_flops"], entry["path"]["ns"])
+            rows.append([interpolator, name, *map(str, figures)])
+        rows.append([interpolator, "**all**", f"**{gates}**", f"**{flip_flops}**", f"**{path}**"])
     return _table(head, rows)
 
 

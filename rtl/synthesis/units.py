@@ -105,8 +105,8 @@ PLANE, BARYCENTRIC = 0, 1  # the parameter Interpolator
 SETUP_MULTIPLIERS = {
     # Two for 2A in setup_cull, four for E in setup_edges.
     BARYCENTRIC: 6,
-    # And in setup_plane four for the numerators, and two in each step of the two divisions.
-    PLANE: 6 + 4 + 2 * 4 * 2,
+    # And in setup_plane four for the numerators, and three in each step of the two divisions.
+    PLANE: 6 + 4 + 2 * 4 * 3,
 }
 
 
