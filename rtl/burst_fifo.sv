@@ -39,33 +39,23 @@ module burst_fifo #(
   output logic                 empty_o
 );
 
-  typedef logic [$clog2(Depth+1)-1:0] count_t;
-
   logic pop_last;
   assign pop_last = pop_valid_o & pop_ready_i & last_o;
 
-  // Credits: bursts that are neither in the FIFO nor promised to it.
-  count_t free_d, free_q;
+  // Bursts.
+  logic unused_ready;
 
-  always_comb begin
-    free_d = free_q;
-    if (reserve_i && !pop_last) begin
-      free_d = free_q - count_t'(1);
-    end else if (!reserve_i && pop_last) begin
-      free_d = free_q + count_t'(1);
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      free_q <= count_t'(Depth);
-    end else begin
-      free_q <= free_d;
-    end
-  end
-
-  assign credit_next_o = free_d != '0;
-  assign empty_o       = free_q == count_t'(Depth);
+  credits #(
+    .Slots (Depth)
+  ) u_credits (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (unused_ready),
+    .reserve_i       (reserve_i),
+    .return_i        (pop_last),
+    .ready_next_o    (credit_next_o),
+    .empty_o         (empty_o)
+  );
 
   memory_fifo #(
     .Width (BeatWidth + 1),
@@ -100,9 +90,6 @@ module burst_fifo #(
   logic unused_head_valid;
   assign unused_head_valid = head_valid;
 `else
-  CreditBeforeReserve: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      reserve_i |-> free_q != '0)
-  else $error("a burst without a credit");
   HeadWithBeats: assert property (@(posedge clk_i) disable iff (!rst_ni)
       head_valid == pop_valid_o)
   else $error("a head without its beats, or beats without their head");

@@ -29,7 +29,7 @@ module credit_fifo #(
   output logic             empty_o
 );
 
-  logic pop;
+  logic pop, unused_ready_next;
   assign pop = pop_valid_o & pop_ready_i;
 
   credits #(
@@ -40,6 +40,7 @@ module credit_fifo #(
     .reserve_ready_o (reserve_ready_o),
     .reserve_i       (reserve_i),
     .return_i        (pop),
+    .ready_next_o    (unused_ready_next),
     .empty_o         (empty_o)
   );
 

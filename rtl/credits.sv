@@ -15,6 +15,8 @@ module credits #(
   output logic reserve_ready_o,
   input  logic reserve_i,
   input  logic return_i,
+  // reserve_ready_o of the next cycle.
+  output logic ready_next_o,
 
   // All credits are free: nothing is in a slot, or promised to one.
   output logic empty_o
@@ -40,10 +42,11 @@ module credits #(
       reserve_ready_q <= 1'b0;
     end else begin
       free_q          <= free_d;
-      reserve_ready_q <= free_d != '0;
+      reserve_ready_q <= ready_next_o;
     end
   end
 
+  assign ready_next_o    = free_d != '0;
   assign reserve_ready_o = reserve_ready_q;
   assign empty_o         = free_q == count_t'(Slots);
 

@@ -416,7 +416,7 @@ module early_z
   end
 
   coded_t coded, coded_out;
-  logic   coded_valid, coded_taken, unused_codes_empty;
+  logic   coded_valid, coded_taken, unused_codes_empty, unused_ready_next;
 
   depth_interpolator #(
     .Quads        (TestWidth),
@@ -449,6 +449,7 @@ module early_z
     .reserve_ready_o (codes_ready),
     .reserve_i       (issue),
     .return_i        (coded_valid & coded_taken),
+    .ready_next_o    (unused_ready_next),
     .empty_o         (unused_codes_empty)
   );
 

@@ -257,7 +257,7 @@ module setup
   end
 
   // A slot is a word of four memories, the last of which is filled last.
-  logic fifo_empty;
+  logic fifo_empty, unused_ready_next;
 
   credits #(
     .Slots (FifoDepth)
@@ -267,6 +267,7 @@ module setup
     .reserve_ready_o (slot_free),
     .reserve_i       (draw),
     .return_i        (leave),
+    .ready_next_o    (unused_ready_next),
     .empty_o         (fifo_empty)
   );
 

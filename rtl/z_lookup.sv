@@ -95,13 +95,11 @@ module z_lookup
   localparam int unsigned SetBits = SetLog2 > 0 ? SetLog2 : 1;
   localparam int unsigned XBits = (SetLog2 + 1) / 2; // of the tile's x in the set's number
   localparam int unsigned WayBits = Ways > 1 ? $clog2(Ways) : 1;
-  localparam int unsigned CreditBits = $clog2(PendingDepth + 1);
   localparam int unsigned FillBits = $clog2(MissesInFlight + 1);
 
   typedef logic [SetBits-1:0] set_t;
   typedef logic [WayBits-1:0] way_t;
   typedef logic [PendingBits-1:0] burst_t;
-  typedef logic [CreditBits-1:0] credit_t;
   typedef logic [FillBits-1:0] fill_t;
 
   typedef struct packed {
@@ -116,8 +114,7 @@ module z_lookup
   logic    middle_q;    // of a burst
   logic    fresh_q;     // the first beat came in the last cycle
   burst_t  next_burst_q, burst_q;
-  credit_t free_d, free_q;
-  logic    credit_q;
+  logic    credit, all_free;
   logic    take_first;
 
   logic [TileCoordBits-1:0] tile_x_q, tile_y_q;
@@ -128,26 +125,27 @@ module z_lookup
   assign burst_o      = middle_q ? burst_q : next_burst_q;
   assign state_read_o = take_first;
 
-  always_comb begin
-    free_d = free_q;
-    if (take_first && !burst_done_i) begin
-      free_d = free_q - credit_t'(1);
-    end else if (!take_first && burst_done_i) begin
-      free_d = free_q + credit_t'(1);
-    end
-  end
+  logic unused_ready_next;
+
+  credits #(
+    .Slots (PendingDepth)
+  ) u_credits (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (credit),
+    .reserve_i       (take_first),
+    .return_i        (burst_done_i),
+    .ready_next_o    (unused_ready_next),
+    .empty_o         (all_free)
+  );
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       middle_q     <= 1'b0;
       fresh_q      <= 1'b0;
       next_burst_q <= '0;
-      free_q       <= credit_t'(PendingDepth);
-      credit_q     <= 1'b0;
     end else begin
-      fresh_q  <= take_first;
-      free_q   <= free_d;
-      credit_q <= free_d != '0;
+      fresh_q <= take_first;
       if (beat_valid_i && beat_ready_o) begin
         middle_q <= ~last_i;
       end
@@ -389,13 +387,13 @@ module z_lookup
     fetched_q <= fetched_d;
   end
 
-  assign beat_ready_o = middle_q | (credit_q & left_d == '0);
+  assign beat_ready_o = middle_q | (credit & left_d == '0);
   assign activity_o   = beat_valid_i && beat_ready_o ? ZLookupBusy
                         : left_d != '0 && resolve    ? ZLookupRequest
                         : left_d != '0 && leaving_i  ? ZLookupWriteBack
                         : left_d != '0               ? ZLookupFillBuffers
                         : beat_valid_i               ? ZLookupPendingFull : ZLookupNoBurst;
-  assign idle_o       = ~middle_q & ~fresh_q & free_q == credit_t'(PendingDepth);
+  assign idle_o       = ~middle_q & ~fresh_q & all_free;
 
 `ifndef SYNTHESIS
   // The quad generator has the whole burst before it sends the first beat; the test counts on it.
