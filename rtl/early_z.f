@@ -1,8 +1,8 @@
 raster_pkg.sv
 depth_pkg.sv
 credits.sv
-credit_fifo.sv
 memory_fifo.sv
+credit_fifo.sv
 sync_ram.sv
 barycentric_sample.sv
 depth_barycentric.sv

@@ -416,7 +416,7 @@ module early_z
   end
 
   coded_t coded, coded_out;
-  logic   coded_valid, coded_taken, unused_codes_empty, unused_ready_next;
+  logic   coded_valid, coded_taken, unused_codes_empty;
 
   depth_interpolator #(
     .Quads        (TestWidth),
@@ -439,31 +439,21 @@ module early_z
   assign coded.state = state_q[InterpolatorLatency-1];
 
   // As many as are under way and one, so that a beat can go in every cycle.
-  localparam int unsigned CodeSlots = InterpolatorLatency + 3;
-
-  credits #(
-    .Slots (CodeSlots)
-  ) u_code_credits (
+  credit_fifo #(
+    .Width    ($bits(coded_t)),
+    .Depth    (InterpolatorLatency + 3),
+    .InMemory (1'b1)
+  ) u_codes (
     .clk_i           (clk_i),
     .rst_ni          (rst_ni),
     .reserve_ready_o (codes_ready),
     .reserve_i       (issue),
-    .return_i        (coded_valid & coded_taken),
-    .ready_next_o    (unused_ready_next),
+    .push_i          (valid_q[InterpolatorLatency]),
+    .data_i          (coded),
+    .pop_valid_o     (coded_valid),
+    .pop_ready_i     (coded_taken),
+    .data_o          (coded_out),
     .empty_o         (unused_codes_empty)
-  );
-
-  memory_fifo #(
-    .Width ($bits(coded_t)),
-    .Slots (CodeSlots)
-  ) u_codes (
-    .clk_i       (clk_i),
-    .rst_ni      (rst_ni),
-    .push_i      (valid_q[InterpolatorLatency]),
-    .data_i      (coded),
-    .pop_valid_o (coded_valid),
-    .pop_ready_i (coded_taken),
-    .data_o      (coded_out)
   );
 
   // Test.

@@ -2,8 +2,8 @@ raster_pkg.sv
 depth_pkg.sv
 setup_pkg.sv
 credits.sv
-credit_fifo.sv
 memory_fifo.sv
+credit_fifo.sv
 pipe_register.sv
 setup_cull.sv
 setup_edges.sv

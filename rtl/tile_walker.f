@@ -1,5 +1,6 @@
 raster_pkg.sv
 credits.sv
+memory_fifo.sv
 credit_fifo.sv
 pipe_register.sv
 corner_test.sv

@@ -506,8 +506,9 @@ module z_test
   end
 
   credit_fifo #(
-    .Width ($bits(tested_beat_t)),
-    .Depth (FifoDepth * TestBeats)
+    .Width    ($bits(tested_beat_t)),
+    .Depth    (FifoDepth * TestBeats),
+    .InMemory (1'b1)
   ) u_fifo (
     .clk_i           (clk_i),
     .rst_ni          (rst_ni),
