@@ -196,7 +196,7 @@ def _memories() -> Unit:
         ("early_z", "quad_generator"),
         (
             Configuration("z_bank", {}, {"Lines": 128}, block_rams=4),
-            Configuration("sync_ram", {}, {"Width": 516, "Depth": 256}, block_rams=15),
+            Configuration("sync_ram", {}, {"Width": 464, "Depth": 256}, block_rams=13),
             Configuration("memory_fifo", {}, {"Width": 133, "Slots": 64}, block_rams=4),
         ),
     )
