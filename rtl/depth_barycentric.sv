@@ -57,18 +57,15 @@ module depth_barycentric
     assign b[i]      = of_pixel(equation_i.b[i]);
   end
 
-  // Multiples too small for multipliers: a shifted step for each bit of the quad's place.
+  // Multiples too small for multipliers: a shifted step for each bit of the quad's place. One sum, so that carries go
+  // through it once.
   function automatic edge_t at_quad(edge_t from, edge_t x_step, edge_t y_step,
                                     logic [QuadIndexBits-1:0] index);
     edge_t sum;
     sum = from;
     for (int unsigned i = 0; i < QuadLog2; i++) begin
-      if (index[i]) begin
-        sum += x_step <<< (i + 1);
-      end
-      if (index[QuadLog2+i]) begin
-        sum += y_step <<< (i + 1);
-      end
+      sum += (x_step <<< (i + 1)) & {EdgeBits{index[i]}};
+      sum += (y_step <<< (i + 1)) & {EdgeBits{index[QuadLog2+i]}};
     end
     return sum;
   endfunction
