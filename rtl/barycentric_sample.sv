@@ -137,9 +137,15 @@ module barycentric_sample
     end
   end
 
-  // 4: weights, or products with the mantissas.
+  // 4: weights, or products with the mantissas and the largest of their exponents.
   logic [63:0] product0_q, product1_q, product2_q;
-  place_t      exponent4_0_q, exponent4_1_q, exponent4_2_q;
+  place_t      exponent4_0_q, exponent4_1_q, exponent4_2_q, top4_q;
+
+  // Products that are 0 have no say in the scale.
+  function automatic place_t larger(place_t top, logic [31:0] operand, logic [31:0] factor,
+                                    place_t exponent);
+    return operand != '0 && factor != '0 && exponent > top ? exponent : top;
+  endfunction
 
   always_ff @(posedge clk_i) begin
     if (valid[3]) begin
@@ -147,6 +153,9 @@ module barycentric_sample
       product2_q <= operand2_q * factor_i[2];
     end
     if (is_float[3]) begin
+      automatic place_t top0 = larger(LeastPlace, operand0_q, factor_i[0], exponent3_0_q);
+      automatic place_t top1 = larger(top0, operand1_q, factor_i[1], exponent3_1_q);
+      top4_q        <= larger(top1, operand2_q, factor_i[2], exponent3_2_q);
       product0_q    <= operand0_q * factor_i[0];
       exponent4_0_q <= exponent3_0_q;
       exponent4_1_q <= exponent3_1_q;
@@ -163,10 +172,6 @@ module barycentric_sample
                                               logic signed [31:0] difference);
     return $signed({33'b0, weight}) * 64'(difference);
   endfunction
-  // Products that are 0 have no say in the scale.
-  function automatic place_t larger(place_t top, logic [63:0] product, place_t exponent);
-    return product != '0 && exponent > top ? exponent : top;
-  endfunction
   function automatic logic signed [63:0] aligned(logic [63:0] product, logic negative,
                                                  place_t exponent, place_t top);
     logic [PlaceBits-1:0] shift;
@@ -182,13 +187,10 @@ module barycentric_sample
       term2_q <= term(product2_q[63:63-WeightBits], difference2_i);
     end
     if (is_float[4]) begin
-      automatic place_t top0 = larger(LeastPlace, product0_q, exponent4_0_q);
-      automatic place_t top1 = larger(top0, product1_q, exponent4_1_q);
-      automatic place_t top = larger(top1, product2_q, exponent4_2_q);
-      term0_q <= aligned(product0_q, negative_i[0], exponent4_0_q, top);
-      term1_q <= aligned(product1_q, negative_i[1], exponent4_1_q, top);
-      term2_q <= aligned(product2_q, negative_i[2], exponent4_2_q, top);
-      top5_q  <= top;
+      term0_q <= aligned(product0_q, negative_i[0], exponent4_0_q, top4_q);
+      term1_q <= aligned(product1_q, negative_i[1], exponent4_1_q, top4_q);
+      term2_q <= aligned(product2_q, negative_i[2], exponent4_2_q, top4_q);
+      top5_q  <= top4_q;
     end
   end
 

@@ -1,11 +1,12 @@
 // FIFO behind a pipeline of fixed latency, with the credits that keep the pipeline from ever stalling.
 //
-// Both handshake outputs and the payload come from registers: no path leads from pop_ready_i to reserve_ready_o.
+// Both handshake outputs come from registers: no path leads from pop_ready_i to reserve_ready_o. So does the payload, in a
+// memory from one of two.
 
 module credit_fifo #(
   /// Bits of the payload.
   parameter int unsigned Width = 32,
-  /// Slots, 2 or more, one of them the output register. With fewer than the latency from reserve_i to pop_valid_o
+  /// Slots, 2 or more, the output one of them. With fewer than the latency from reserve_i to pop_valid_o
   /// plus one, packets cannot flow in every cycle.
   parameter int unsigned Depth = 4,
   /// 1: slots are words of a memory, for many or wide ones; 0: registers.

@@ -51,9 +51,9 @@ package depth_pkg;
     return field == '0 ? 8'd1 : field;
   endfunction
 
-  // A float32 as a word where 1 is 2^exponent: `down` is how far its exponent is below. Cut towards zero.
   typedef logic [7:0] down_t;
 
+  // A float32 as a word, cut towards zero. `down` is how far its exponent is below that of the word's 1.
   function automatic word_t word_of_float(logic [CodeBits-1:0] bits, down_t down);
     word_t magnitude;
     magnitude = {1'b0, |bits[30:23], bits[22:0], 39'b0};

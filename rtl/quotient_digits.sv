@@ -78,7 +78,8 @@ module quotient_digits #(
     end
   end
 
-  // Third: one divisor more or less where the estimate was off. The digits that are right have no carry.
+  // Third: one divisor more or less where the estimate was off. The right digits are below 2^Digits, so their carry is
+  // left away.
   rest_t   less, more;
   digits_t digits;
   assign less = rest_q - rest_t'({1'b0, divisor2_q});

@@ -2,8 +2,8 @@
 //
 // The cull stage finds each triangle's verdict, one a cycle; the verdicts wait in a queue. At its head a dropped
 // triangle vanishes, and a drawn one enters the divider when that is free and a slot of the output FIFO is. The slot's
-// parts come one after the other: what is known already, then the edges, last the reciprocal, which makes it valid.
-// So nothing stalls in mid-pipe, and nothing has to wait beside the divider.
+// parts come one after the other, last the quotients, which make it valid. So nothing stalls in mid-pipe, and nothing
+// has to wait beside the divider.
 
 module setup
   import raster_pkg::*;
@@ -271,7 +271,7 @@ module setup
     .empty_o         (fifo_empty)
   );
 
-  logic unused_known_valid, unused_edges_valid, unused_depth_valid;
+  logic known_valid, edges_are_there, depth_is_there;
 
   memory_fifo #(
     .Width ($bits(known_t)),
@@ -281,7 +281,7 @@ module setup
     .rst_ni      (rst_ni),
     .push_i      (draw),
     .data_i      (known_d),
-    .pop_valid_o (unused_known_valid),
+    .pop_valid_o (known_valid),
     .pop_ready_i (leave),
     .data_o      (known)
   );
@@ -294,7 +294,7 @@ module setup
     .rst_ni      (rst_ni),
     .push_i      (edges_valid),
     .data_i      (edges_d),
-    .pop_valid_o (unused_edges_valid),
+    .pop_valid_o (edges_are_there),
     .pop_ready_i (leave),
     .data_o      (edges)
   );
@@ -307,7 +307,7 @@ module setup
     .rst_ni      (rst_ni),
     .push_i      (depth_valid),
     .data_i      (depth_d),
-    .pop_valid_o (unused_depth_valid),
+    .pop_valid_o (depth_is_there),
     .pop_ready_i (leave),
     .data_o      (depth)
   );
@@ -366,5 +366,14 @@ module setup
                       : !verdict_valid ? SetupNoTriangle
                       : !divider_free  ? SetupDivider : SetupNoCredit;
   assign idle_o     = queue_empty & fifo_empty;
+
+`ifdef SYNTHESIS
+  logic unused_valid;
+  assign unused_valid = ^{known_valid, edges_are_there, depth_is_there};
+`else
+  WholeSlot: assert property (@(posedge clk_i) disable iff (!rst_ni)
+      triangle_valid_o |-> known_valid && edges_are_there && depth_is_there)
+  else $error("a slot without all of its parts");
+`endif
 
 endmodule

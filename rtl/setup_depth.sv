@@ -1,7 +1,7 @@
 // What the depths of a triangle are together: the range of its stored codes, the power of two above them all, and its
 // polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
 //
-// Eight registers, one triangle a cycle: the extremes; the power of two; the extremes and the offset as words; sums with
+// Eight registers, one triangle a cycle: the extremes; the power of two; the depths and the offset as words; sums with
 // the offset; normalized; where to round; codes; limits.
 
 module setup_depth
@@ -393,25 +393,25 @@ module setup_depth
   range_t rounded_d, rounded_q;
   logic   rounded_valid;
 
-  codes_t last;
-  assign last = rounding_q.codes;
+  codes_t codes;
+  assign codes = rounding_q.codes;
 
   always_comb begin
     rounded_d = '0;
-    if (last.draw.has_depth) begin
+    if (codes.draw.has_depth) begin
       rounded_d = '{
-        least_code: last.draw.least_code,
-        most_code:  last.draw.most_code,
-        word:       last.word,
-        beyond:     last.beyond,
-        exponent:   last.exponent,
-        offset:     last.offset,
-        min_code:   last.min_code,
-        max_code:   last.max_code
+        least_code: codes.draw.least_code,
+        most_code:  codes.draw.most_code,
+        word:       codes.word,
+        beyond:     codes.beyond,
+        exponent:   codes.exponent,
+        offset:     codes.offset,
+        min_code:   codes.min_code,
+        max_code:   codes.max_code
       };
-      if (last.draw.is_float && last.moved) begin
-        rounded_d.min_code = rounded_float(last.low.value, rounding_q.low);
-        rounded_d.max_code = rounded_float(last.high.value, rounding_q.high);
+      if (codes.draw.is_float && codes.moved) begin
+        rounded_d.min_code = rounded_float(codes.low.value, rounding_q.low);
+        rounded_d.max_code = rounded_float(codes.high.value, rounding_q.high);
       end
     end
   end

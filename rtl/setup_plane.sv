@@ -171,7 +171,7 @@ module setup_plane
     return (ShiftedBits'(numerator) << GradientFraction) << left;
   endfunction
 
-  // Element i is at the begin of step i.
+  // Element i is at the beginning of step i.
   logic [31:0]             reciprocal_q [Steps];
   logic [AreaBits-1:0]     divisor_q    [Steps];
   logic [AreaBits-1:0]     x_remainder [Steps+1];
