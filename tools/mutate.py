@@ -2,7 +2,7 @@
 """Mutation test of a unit's bench: changes the unit's SystemVerilog in one place, builds and runs
 the bench, and tells what found the change, or that nothing did.
 
-    tools/mutate.py quad_generator                        # 16 mutants, the unit's default models
+    tools/mutate.py quad_generator                        # 16 mutants, the group's default models
     tools/mutate.py early_z --count 30 --seed 7 --page docs/mutation.md
     tools/mutate.py setup --file setup_cull --model t8_s8 -- --tiles 20000
     tools/mutate.py raster_pipeline                       # and what only the pipeline's bench sees
@@ -27,8 +27,6 @@ from typing import NamedTuple
 from mutant_bench import PipelineBench, Stillborn, UnitBench, find, models_of, show
 from mutants import ROOT, RTL, Equivalents, Sources, change_of, is_activity, mutants_of
 
-
-
 class Group(NamedTuple):
     """Sources that one set of models tells from their mutants."""
 
@@ -39,7 +37,7 @@ class Group(NamedTuple):
 
 
 GROUPS = {
-    "setup": Group("setup", ["t4_s4_i4", "t8_s5_i2", "t8_s8"], ["--tiles", "12000"]),
+    "setup": Group("setup", ["t4_s4_i4", "t8_s5_i2", "t8_s8", "plane_t8_s8"], ["--tiles", "12000"]),
     "setup_plane": Group(
         "setup",
         ["plane_t8_s8", "plane_t4_s4_i4"],

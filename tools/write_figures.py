@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Runs the commands whose output the pages show, and writes it into the pages.
 
-    tools/write_figures.py                                # all, on the frames that ship
+    tools/write_figures.py                                # all that take seconds, on the frames that ship
     tools/write_figures.py bench-speed --captured DIR/*.ptf.xz
     tools/write_figures.py --check demo                   # write nothing; exit status 1 if it is stale
 
-Each figure is a block `<!-- NAME: begin -->` ... `<!-- NAME: end -->` of a page, with its command above
-it. Rows of captured frames, which do not ship, are marked. `make docs-figures` runs this script.
+Each figure is a block `<!-- NAME: begin -->` ... `<!-- NAME: end -->` of a page, with its command. Rows
+of captured frames, which do not ship, are marked. `make docs-figures` runs this script.
 """
 
 import argparse
@@ -172,7 +172,7 @@ def main():
         after = replaced(before, name, text, path)
         if options.check:
             stale = stale or before != after
-            print(f"{page}: {name} is {'stale: run `make docs-figures`' if before != after else 'current'}")
+            print(f"{page}: {name} is {f'stale: run `tools/write_figures.py {name}`' if before != after else 'current'}")
         else:
             path.write_text(after)
             print(f"{name}: {page}")

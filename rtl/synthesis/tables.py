@@ -7,16 +7,7 @@ import re
 from synthesis.runs import Run
 from synthesis.units import UNITS
 
-# The configurations whose memories the page lists one by one: those nearest to the default machine.
-LISTED = [
-    ("setup", "sub_pixel_bits=8 Interval=1"),
-    ("tile_walker", "tile_size=8 sub_pixel_bits=8"),
-    ("edge_evaluator", "tile_size=8 sub_pixel_bits=8"),
-    ("quad_generator", "tile_size=8 quad_width=4"),
-    ("early_z", "test_width=1"),
-]
-# The default machine by interpolator: its parts and how many. early_z with four barycentric quads takes abc too long; it has
-# at least the samples of three quads more than with one.
+# The default machine by interpolator: its parts and how many; see "The machine" of docs/hardware.md.
 MACHINE = {
     interpolator: [
         (1, "setup", f"sub_pixel_bits=8 Interval=1 Interpolator={number}"),
@@ -34,7 +25,13 @@ MACHINE = {
         ),
     )
 }
+# The configurations whose memories the page lists one by one.
+LISTED = [(top, label) for _, top, label in MACHINE["plane"]]
 ECP5_CELLS = ["LUT4", "CCU2C", "TRELLIS_FF", "MULT18X18D", "DP16KD", "TRELLIS_DPR16X4"]
+
+
+_LABELS = {(c.top, c.label) for unit in UNITS.values() for c in unit.configurations}
+assert all(part[1:] in _LABELS for parts in MACHINE.values() for part in parts), "a part of no unit"
 
 
 def flip_flops(cells: dict[str, int]) -> int:

@@ -81,7 +81,8 @@ class ExactPlane {
   }
 
   [[nodiscard]] mpq_class offset_of(const Sample& sample) const {
-    const mpq_class slope(std::max<mpz_class>(abs(dx_), abs(dy_)) * 256, one_);
+    mpq_class slope(std::max<mpz_class>(abs(dx_), abs(dy_)) * 256, one_);
+    slope.canonicalize();
     const float z_max = std::max({sample.z[0], sample.z[1], sample.z[2]});
     const mpq_class unit = format_ != DepthFormat::kFloat32 ? mpq_class(1) / max_unorm_code(format_)
                            : z_max == 0                     ? mpq_class(0)

@@ -2,6 +2,8 @@
 // formulas.
 #include "halfspace/scene/front_end.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -198,12 +200,13 @@ TEST_CASE("front_end: with depth clamp vertices keep depths beyond the range, an
 // One that is too far for a vertex depth: the plane's value at each sample, in one piece or another.
 TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") {
   const DepthFormat format = GENERATE(DepthFormat::kUnorm24, DepthFormat::kFloat32);
-  const float far = GENERATE(40000.0f, -3e6f, 6e7f, 1e20f);
-  const Processed p = process({{{-1, -1, 0.5f, 1}, {1, -1, far, 1}, {-1, 1, -2 * far, 1}}},
+  const float far = GENERATE(40000.0f, -3e6f, 6e7f, 0x1p66f);
+  const Processed p = process({{{-1, -1, 0.5f, 1}, {1, -1, far, 1}, {-1, 1, -3 * far, 1}}},
                               bits({Flag::kDepthClamp}), format);
   CHECK(p.counters.far_depth == 1);
   CHECK(p.counters.emitted == p.triangles.size());
   std::array<int, 64 * 64> pieces{};
+  int inside = 0;
   for (const ScreenTriangle& t : p.triangles) {
     REQUIRE((t.v[0].x == 0 && t.v[0].y == 0 && t.v[1].x == 64 * 256 && t.v[2].y == 64 * 256));
     REQUIRE((t.v[0].z == t.v[1].z && t.v[0].z == t.v[2].z && t.offset == 0));
@@ -215,7 +218,8 @@ TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") 
           continue;  // not covered
         }
         ++pieces.at(static_cast<std::size_t>(y * 64 + x));
-        const double z = std::clamp(0.5 * (1 - u - w) + far * u - 2.0 * far * w, 0.0, 1.0);
+        const double z = std::clamp(0.5 * (1 - u - w) + far * (u - 3 * w), 0.0, 1.0);
+        inside += z > 0 && z < 1 ? 1 : 0;
         const double got = format == DepthFormat::kFloat32
                                ? std::bit_cast<float>(static_cast<std::uint32_t>(t.v[0].z))
                                : unorm24(t.v[0]);
@@ -223,8 +227,23 @@ TEST_CASE("front_end: a triangle too far outside is resolved sample by sample") 
       }
     }
   }
+  CHECK(inside > 10);
   CHECK(std::ranges::count(pieces, 1) == 64 * 65 / 2);
   CHECK(std::ranges::count(pieces, 0) == 64 * 63 / 2);
+}
+
+// Far vertices and an offset that takes them into [0, 1] again: the sums are vertex depths like others.
+TEST_CASE("front_end: far vertices that polygon offset brings near are one piece") {
+  Command state;
+  state.offset_units = 32768.3F * 16777215.0F;
+  const Processed p = process({{{-1, -1, -32768, 1}, {1, -1, -32768, 1}, {-1, 1, -32768.25f, 1}}},
+                              bits({Flag::kDepthClamp, Flag::kPolygonOffset}), DepthFormat::kUnorm24, state);
+  REQUIRE(p.triangles.size() == 1);
+  CHECK(p.counters.far_depth == 0);
+  CHECK(p.triangles[0].offset == 0);
+  const double offset = static_cast<double>(state.offset_units) / 16777215.0;
+  CHECK(unorm24(p.triangles[0].v[0]) == Approx(offset - 32768).margin(1e-6));
+  CHECK(unorm24(p.triangles[0].v[2]) == Approx(offset - 32768.25).margin(1e-6));
 }
 
 // Vertices at 0, so that centres of pixels lie where depth is 0 or next to it.

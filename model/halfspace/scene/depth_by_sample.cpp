@@ -61,13 +61,21 @@ class Pieces {
 /// Pixels of a row each with its own depth; those that have the same become one piece.
 template <class Code>
 void add_samples(Pieces& pieces, PixelRun run, std::int32_t y, const Code& code) {
-  for (PixelRun same{run.first, run.first}; same.first <= run.last; same.first = ++same.last) {
-    const std::int64_t flat = code(same.first);
-    while (same.last < run.last && code(same.last + 1) == flat) {
-      ++same.last;
-    }
-    pieces.add(same, y, flat);
+  if (run.empty()) {
+    return;
   }
+  PixelRun same{run.first, run.first};
+  std::int64_t flat = code(run.first);
+  for (std::int32_t x = run.first + 1; x <= run.last; ++x) {
+    const std::int64_t next = code(x);
+    if (next != flat) {
+      pieces.add(same, y, flat);
+      same.first = x;
+      flat = next;
+    }
+    same.last = x;
+  }
+  pieces.add(same, y, flat);
 }
 
 }  // namespace
@@ -79,8 +87,8 @@ bool may_be_tiny(const std::array<double, 3>& z) {
   return most > 0 && least < tiny_limit(z);
 }
 
-std::size_t emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
-                     DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out) {
+void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
+              DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out) {
   const DepthPlaneRows plane(triangle.v, z, grid.sub_pixel_bits);
   const PixelRect box = intersect(sample_bounds(triangle.v, grid.sub_pixel_bits), grid.screen);
   Pieces pieces(triangle, out);
@@ -113,11 +121,10 @@ std::size_t emit_far(const ScreenTriangle& triangle, const std::array<double, 3>
   if (pieces.count() == 0) {
     pieces.add(triangle.within);  // setup drops and counts it
   }
-  return pieces.count();
 }
 
-std::size_t emit_tiny(const ScreenTriangle& triangle, const std::array<double, 3>& z, const SampleGrid& grid,
-                      std::vector<ScreenTriangle>& out) {
+bool emit_tiny(const ScreenTriangle& triangle, const std::array<double, 3>& z, const SampleGrid& grid,
+               std::vector<ScreenTriangle>& out) {
   const DepthPlaneRows plane(triangle.v, z, grid.sub_pixel_bits);
   const PixelRect box = intersect(sample_bounds(triangle.v, grid.sub_pixel_bits), grid.screen);
   const double limit = tiny_limit(z);
@@ -139,11 +146,11 @@ std::size_t emit_tiny(const ScreenTriangle& triangle, const std::array<double, 3
   }
   if (pieces.count() == 0) {
     pieces.add(triangle.within);
-  } else {
-    whole.y_last = box.y_last;
-    pieces.add(whole);
+    return false;
   }
-  return pieces.count();
+  whole.y_last = box.y_last;
+  pieces.add(whole);
+  return true;
 }
 
 }  // namespace halfspace

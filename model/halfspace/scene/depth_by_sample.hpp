@@ -1,7 +1,7 @@
 /// Triangles whose depth the packet of a triangle cannot hold everywhere. The front end gives them to setup
 /// as often as it takes, each time with other pixels and, where it must, with one depth for all vertices;
 /// edges stay as they are, so every sample is covered once, or not, as if z were nothing. Depth of such
-/// samples is the exact one, rounded.
+/// samples is that of the plane, rounded as doubles round.
 ///
 /// Far: a vertex is too far outside [0, 1]. Depth clamp lets that happen, where a triangle comes close to the
 /// eye: z / w has no bound. Samples outside the depth range take its ends, in few pieces; inside it a sample
@@ -40,13 +40,13 @@ bool is_far(double depth);
 /// True where a float32 triangle may have tiny depths: one vertex is far less than another.
 bool may_be_tiny(const std::array<double, 3>& z);
 
-/// Appends pieces of the triangle and returns their number. `z` is that of the vertices, with polygon offset.
-std::size_t emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
-                     DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out);
+/// Appends pieces of the triangle. `z` is that of the vertices, one of them far, with polygon offset.
+void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
+              DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out);
 
-/// The same for tiny depths of a float32 surface: one piece, the triangle itself, if there are none. `z` is
-/// that of the vertices as floats, without the offset, which the pieces keep.
-std::size_t emit_tiny(const ScreenTriangle& triangle, const std::array<double, 3>& z, const SampleGrid& grid,
-                      std::vector<ScreenTriangle>& out);
+/// Appends the triangle of a float32 surface as it is, or in pieces where it has tiny depths; returns whether
+/// it has. `z` is that of the vertices as floats, without the offset, which the pieces keep.
+bool emit_tiny(const ScreenTriangle& triangle, const std::array<double, 3>& z, const SampleGrid& grid,
+               std::vector<ScreenTriangle>& out);
 
 }  // namespace halfspace

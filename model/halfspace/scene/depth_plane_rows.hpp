@@ -1,5 +1,5 @@
-/// Edges and depth of a triangle at the centres of pixels, row by row, exact: for the front end, where it has
-/// to know depth itself.
+/// Edges and depth of a triangle at the centres of pixels, row by row: for the front end, where it has to
+/// know depth itself.
 #pragma once
 
 #include <array>
@@ -35,7 +35,8 @@ class DepthPlaneRows {
   /// Depth at a covered pixel, off by some 2^-51 of the largest vertex.
   [[nodiscard]] double rough_depth(std::int32_t x, std::int32_t y) const;
 
-  /// Depth at any pixel: the sum of z_i E_i, rounded once, by twice the area.
+  /// Depth at any pixel, within 2^-51 of itself: the sum of z_i E_i, of which nothing cancels unseen, by
+  /// twice the area.
   [[nodiscard]] double depth(std::int32_t x, std::int32_t y) const;
 
  private:

@@ -123,12 +123,17 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       }
     }
     const SampleGrid grid{.sub_pixel_bits = sub_pixel_bits_, .screen = screen_};
-    const double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
+    double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
     if (is_far(offset) || std::ranges::any_of(z, is_far)) {
       for (double& depth : z) {
         depth += offset;
       }
-      counters.emitted += emit_far(triangle, z, {z_least_, z_most_}, format_, grid, out);
+      offset = 0;
+    }
+    const std::size_t before = out.size();
+    if (std::ranges::any_of(z, is_far)) {
+      emit_far(triangle, z, {z_least_, z_most_}, format_, grid, out);
+      counters.emitted += out.size() - before;
       ++counters.far_depth;
       return;
     }
@@ -141,9 +146,8 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
         depth = static_cast<float>(depth);
       }
       if (may_be_tiny(z)) {
-        const std::size_t pieces = emit_tiny(triangle, z, grid, out);
-        counters.emitted += pieces;
-        counters.tiny_depth += pieces > 1 ? 1 : 0;
+        counters.tiny_depth += emit_tiny(triangle, z, grid, out) ? 1 : 0;
+        counters.emitted += out.size() - before;
         return;
       }
     }
@@ -179,9 +183,10 @@ double FrontEnd::offset_of(const ScreenTriangle& snapped, const std::array<doubl
   double offset = slope * draw_.offset_factor + offset_unit * draw_.offset_units;
   const double clamp = draw_.offset_clamp;
   offset = clamp > 0 ? std::min(offset, clamp) : clamp < 0 ? std::max(offset, clamp) : offset;
-  // Nothing more changes a fragment: with this much all are clamped.
+  // Nothing more changes a fragment: with this much all are clamped. Of far vertices a double may not hold
+  // it.
   const auto [z_min, z_max] = std::minmax({z[0], z[1], z[2]});
-  return std::clamp(offset, -1 - z_max, 2 - z_min);
+  return is_far(z_min) || is_far(z_max) ? offset : std::clamp(offset, -1 - z_max, 2 - z_min);
 }
 
 }  // namespace halfspace

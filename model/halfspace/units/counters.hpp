@@ -13,7 +13,7 @@ namespace halfspace {
   C(degenerate,        "dropped: w is not positive after clipping")                       \
   C(clipped,           "cut by a plane of the clip volume or the guard band")             \
   C(far_depth,         "resolved sample by sample: a vertex is too far outside [0, 1]")    \
-  C(tiny_depth,        "resolved by sample where float32 depth is next to 0, far below the vertices") \
+  C(tiny_depth,        "resolved by sample where float32 depth is far below the largest vertex") \
   C(emitted,           "given to setup; cutting makes several of one")
 
 #define HALFSPACE_SETUP_COUNTERS(C)                                          \
