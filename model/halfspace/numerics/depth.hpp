@@ -51,8 +51,8 @@ inline std::int64_t vertex_depth_code(DepthFormat format, double depth) {
   if (format == DepthFormat::kFloat32) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(depth) + 0.0f);  // + 0 turns -0 into 0
   }
-  const double one = std::ldexp(static_cast<double>(max_unorm_code(format)), vertex_depth_fraction(format));
-  return static_cast<std::int64_t>(std::nearbyint(depth * one));
+  const auto one = static_cast<double>(std::int64_t{max_unorm_code(format)} << vertex_depth_fraction(format));
+  return std::llrint(depth * one);
 }
 
 /// A vertex depth of a stored code.
