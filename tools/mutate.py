@@ -27,6 +27,7 @@ from typing import NamedTuple
 from mutant_bench import PipelineBench, Stillborn, UnitBench, find, models_of, show
 from mutants import ROOT, RTL, Equivalents, Sources, change_of, is_activity, mutants_of
 
+
 class Group(NamedTuple):
     """Sources that one set of models tells from their mutants."""
 

@@ -7,7 +7,7 @@
 /// eye: z / w has no bound. Samples outside the depth range take its ends, in few pieces; inside it a sample
 /// is a piece, of which there are few, as z changes by much from one to the next.
 ///
-/// Tiny: a float32 depth far below that of the vertices, next to where the plane meets 0. A unit of its last
+/// Tiny: a float32 depth far below the largest vertex, next to where the plane meets 0. A unit of its last
 /// place is less than what the interpolator `plane` keeps, whose error is a fixed part of the largest vertex
 /// (docs/numerics.md). That is a sample in a row or none, unless a row of centres lies along the line at
 /// which depth is 0.

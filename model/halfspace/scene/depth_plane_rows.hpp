@@ -35,8 +35,7 @@ class DepthPlaneRows {
   /// Depth at a covered pixel, off by some 2^-51 of the largest vertex.
   [[nodiscard]] double rough_depth(std::int32_t x, std::int32_t y) const;
 
-  /// Depth at any pixel, within 2^-51 of itself: the sum of z_i E_i, of which nothing cancels unseen, by
-  /// twice the area.
+  /// Depth at any pixel, within 2^-51 of itself: the sum of z_i E_i, added without loss, by twice the area.
   [[nodiscard]] double depth(std::int32_t x, std::int32_t y) const;
 
  private:
