@@ -1,4 +1,4 @@
-// A step of a long division by a number whose reciprocal is known: 28 bits of the quotient.
+// A step of a long division by a number whose reciprocal is known: 23 bits of the quotient.
 //
 // Three registers, one division a cycle. The top bits of the remainder times the reciprocal are the digits, or one more
 // or less; their product with the divisor is taken away; what remains says which.
@@ -6,8 +6,8 @@
 module quotient_digits #(
   /// Bits of the divisor, 32 or more; its top bit is set.
   parameter int unsigned Width = 48,
-  /// Bits of the dividend that are yet to come, 28 or more, and of the quotient that are kept.
-  parameter int unsigned Left = 112,
+  /// Bits of the dividend that are yet to come, 23 or more, and of the quotient that are kept.
+  parameter int unsigned Left = 115,
   parameter int unsigned Kept = 86
 ) (
   input  logic             clk_i,
@@ -25,7 +25,7 @@ module quotient_digits #(
   output logic [Kept-1:0]  quotient_o
 );
 
-  localparam int unsigned Digits = 28;
+  localparam int unsigned Digits = 23;
   localparam int unsigned PartBits = Width + Digits;
 
   logic [1:0] valid_q;
@@ -34,14 +34,16 @@ module quotient_digits #(
     valid_q <= {valid_q[0], valid_i};
   end
 
-  // First: the estimate. Cutting the part, the divisor and its reciprocal to 32 bits makes up to 1/8 of a digit each, and
-  // leaving away the product of lower halves another 1/8: so the digits are right, or one more or less.
+  // First: the estimate. Cutting the part and the reciprocal to 27 bits loses up to 1/8 of a digit each, leaving away the
+  // product of lower halves 1/16, and the reciprocal is off by 1/128 at most: so the digits are right, or one more or
+  // less.
   logic [PartBits-1:0] part;
-  logic [31:0]         top;
-  logic [47:0]         estimate;
+  logic [26:0]         top, factor;
+  logic [40:0]         estimate;
   assign part     = {remainder_i, dividend_i[Left-1-:Digits]};
-  assign top      = part[PartBits-1-:32];
-  assign estimate = 48'(top[31:16]) * 48'(reciprocal_i) + 48'(top[15:0]) * 48'(reciprocal_i[31:16]);
+  assign top      = part[PartBits-1-:27];
+  assign factor   = reciprocal_i[31:5];
+  assign estimate = 41'(top[26:13]) * 41'(factor) + 41'(top[12:0]) * 41'(factor[26:13]);
 
   // What remains is less than two divisors either way, so higher bits of part and product cannot matter.
   localparam int unsigned RestBits = Width + 2;
@@ -59,7 +61,7 @@ module quotient_digits #(
 
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
-      digits1_q   <= estimate[47-:Digits+1];
+      digits1_q   <= estimate[40-:Digits+1];
       part1_q     <= part[RestBits-1:0];
       divisor1_q  <= divisor_i;
       dividend1_q <= dividend_i << Digits;
@@ -104,7 +106,7 @@ module quotient_digits #(
   end
 
   logic unused_rest;
-  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[47-Digits-1:0],
-                         quotient2_q[Kept-1:Kept-Digits]};
+  assign unused_rest = ^{less[RestBits-1:Width], more[RestBits-1:Width], estimate[40-Digits-1:0],
+                         reciprocal_i[4:0], quotient2_q[Kept-1:Kept-Digits]};
 
 endmodule

@@ -13,7 +13,7 @@ module setup
   /// Triangles in the cull stage and its queue, 2 or more, each as wide as verdict_t. With fewer than 5 the stage
   /// cannot take a triangle in every cycle.
   parameter int unsigned QueueDepth = 8,
-  /// Slots of the output FIFO, 2 or more, each as wide as the three packets together. With fewer than 33 / Interval
+  /// Slots of the output FIFO, 2 or more, each as wide as the three packets together. With fewer than 36 / Interval
   /// (plane) or 19 / Interval (barycentric) drawn triangles are further apart than Interval.
   parameter int unsigned FifoDepth = 40,
   /// Cycles from one drawn triangle to the next: 1, 2, 4, 8 or 16. The divider has 16 / Interval stages.
@@ -107,7 +107,7 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 4 and 8 cycles later, and last the reciprocal or the gradients, 17 or 31 cycles
+  // The parts of a slot: at the decision, 4 and 8 cycles later, and last the reciprocal or the gradients, 17 or 34 cycles
   // later.
   typedef struct packed {
     vertex_depth_t [2:0] z;

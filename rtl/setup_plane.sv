@@ -5,7 +5,7 @@
 //
 // One triangle a cycle. Seven registers: steps of the edges, thrice; differences of depth; products; sums; magnitudes.
 // They wait for the reciprocal of 2A. Then one register in which 2A has its top bit set and the numerators have moved
-// along, four steps of the division of three each, and one for the sign. Four multipliers for the numerators, three in
+// along, five steps of the division of three each, and one for the sign. Four multipliers for the numerators, three in
 // each step of each division.
 
 module setup_plane
@@ -29,17 +29,17 @@ module setup_plane
   // 17 cycles later.
   input  logic [31:0]   reciprocal_i,
 
-  // 31 cycles later.
+  // 34 cycles later.
   output logic                                  valid_o,
   output logic [1:0] [HalfGradientBits-1:0]     dx_o,
   output logic [1:0] [HalfGradientBits-1:0]     dy_o
 );
 
   localparam int unsigned Divided = 17; // the cycle in which the reciprocal is there
-  localparam int unsigned Steps = 4;
+  localparam int unsigned Steps = 5;
   localparam int unsigned Latency = Divided + 1 + 3 * Steps + 1;
   localparam int unsigned NumeratorBits = WordBits + StepBits;
-  localparam int unsigned DividendBits = 28 * Steps; // a numerator and GradientFraction
+  localparam int unsigned DividendBits = 23 * Steps; // a numerator and GradientFraction
   localparam int unsigned ShiftedBits = DividendBits + AreaBits - 1;
 
   typedef logic signed [WordBits:0] rise_t;

@@ -106,7 +106,7 @@ SETUP_MULTIPLIERS = {
     # Two for 2A in setup_cull, four for E in setup_edges.
     BARYCENTRIC: 6,
     # And in setup_plane four for the numerators, and three in each step of the two divisions.
-    PLANE: 6 + 4 + 2 * 4 * 3,
+    PLANE: 6 + 4 + 2 * 5 * 3,
 }
 
 

@@ -95,7 +95,7 @@ TEST_CASE("timing gates: the division for the plane", "[timing]") {
   config.depth.interpolator = DepthInterpolator::kPlane;
   Rig rig(config);
   rig.triangle(1, {4});
-  CHECK(rig.times.accept.at(0) == 4 + 32);
+  CHECK(rig.times.accept.at(0) == 4 + 35);
 }
 
 TEST_CASE("timing gates: pipeline registers of the interpolator", "[timing]") {

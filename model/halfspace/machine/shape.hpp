@@ -33,7 +33,7 @@ namespace halfspace {
 #define HALFSPACE_LINKS(L)                                                                                     \
   L(SetupQueue,    setup_queue,     setup.queue,          4,                     std::nullopt)                 \
   L(Setup,         setup,           setup.fifo,                                                                \
-    config.depth.interpolator == DepthInterpolator::kPlane ? 32 : 18 /* a division */, StallPoint::kSetup)     \
+    config.depth.interpolator == DepthInterpolator::kPlane ? 35 : 18 /* a division */, StallPoint::kSetup)     \
   L(TileWalker,    tile_walker,     tile_walker.fifo,     2,                     StallPoint::kTileWalker)      \
   L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo,                                                       \
     config.edge_evaluator.pipe_stages + 1 /* and the output register */,         StallPoint::kEdgeEvaluator)   \

@@ -15,11 +15,11 @@ template <int TileSize>
 constexpr TileMask half_plane(std::int32_t local_edge, std::int32_t a, std::int32_t b) {
   TileMask mask;
   for (int y = 0; y < TileSize; ++y) {
-    std::uint32_t row = 0;
-    for (int x = 0; x < TileSize; ++x) {
-      row |= static_cast<std::uint32_t>(local_edge + x * a + y * b >= 0) << x;
+    std::uint32_t outside = 0;  // the sign bits; x falls, so that one shift serves all
+    for (int x = TileSize - 1; x >= 0; --x) {
+      outside = 2 * outside + (static_cast<std::uint32_t>(local_edge + x * a + y * b) >> 31);
     }
-    set_row<TileSize>(mask, y, row);
+    set_row<TileSize>(mask, y, outside ^ ((1U << TileSize) - 1));
   }
   return mask;
 }
