@@ -172,7 +172,7 @@ module setup_plane
   endfunction
 
   // Element i is at the beginning of step i.
-  logic [31:0]             reciprocal_q [Steps];
+  logic [26:0]             factor_q     [Steps];
   logic [AreaBits-1:0]     divisor_q    [Steps];
   logic [AreaBits-1:0]     x_remainder [Steps+1];
   logic [AreaBits-1:0]     y_remainder [Steps+1];
@@ -186,7 +186,7 @@ module setup_plane
 
   always_ff @(posedge clk_i) begin
     if (valid[Divided]) begin
-      reciprocal_q[0] <= reciprocal_i;
+      factor_q[0]     <= reciprocal_i[31:5] - 27'd1;
       divisor_q[0]    <= area_q[Divided] << zeros;
       {x_remainder[0], x_dividend[0]} <= {1'b0, shifted(wait_q[Divided].x, zeros)};
       {y_remainder[0], y_dividend[0]} <= {1'b0, shifted(wait_q[Divided].y, zeros)};
@@ -204,7 +204,7 @@ module setup_plane
       .clk_i        (clk_i),
       .valid_i      (valid[Begin]),
       .divisor_i    (divisor_q[i]),
-      .reciprocal_i (reciprocal_q[i]),
+      .factor_i     (factor_q[i]),
       .remainder_i  (x_remainder[i]),
       .dividend_i   (x_dividend[i]),
       .quotient_i   (x_quotient[i]),
@@ -221,7 +221,7 @@ module setup_plane
       .clk_i        (clk_i),
       .valid_i      (valid[Begin]),
       .divisor_i    (divisor_q[i]),
-      .reciprocal_i (reciprocal_q[i]),
+      .factor_i     (factor_q[i]),
       .remainder_i  (y_remainder[i]),
       .dividend_i   (y_dividend[i]),
       .quotient_i   (y_quotient[i]),
@@ -231,20 +231,20 @@ module setup_plane
     );
 
     if (i + 1 < Steps) begin : gen_hand_on
-      logic [31:0]         reciprocal1_q, reciprocal2_q;
+      logic [26:0]         factor1_q, factor2_q;
       logic [AreaBits-1:0] divisor1_q, divisor2_q;
 
       always_ff @(posedge clk_i) begin
         if (valid[Begin]) begin
-          reciprocal1_q <= reciprocal_q[i];
+          factor1_q     <= factor_q[i];
           divisor1_q    <= divisor_q[i];
         end
         if (valid[Begin+1]) begin
-          reciprocal2_q <= reciprocal1_q;
+          factor2_q     <= factor1_q;
           divisor2_q    <= divisor1_q;
         end
         if (valid[Begin+2]) begin
-          reciprocal_q[i+1] <= reciprocal2_q;
+          factor_q[i+1]     <= factor2_q;
           divisor_q[i+1]    <= divisor2_q;
         end
       end
@@ -268,7 +268,7 @@ module setup_plane
   end
 
   logic unused_rest;
-  assign unused_rest = ^{x_remainder[Steps], y_remainder[Steps],
+  assign unused_rest = ^{reciprocal_i[4:0], x_remainder[Steps], y_remainder[Steps],
                          x_dividend[Steps], y_dividend[Steps]};
 
 endmodule
