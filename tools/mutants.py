@@ -273,19 +273,18 @@ class Equivalents:
     def __init__(self):
         entries = tomllib.loads(self.FILE.read_text()).get("equivalent", [])
         self.reasons = {(e["file"], e["before"], e["after"]): e["reason"] for e in entries}
-        self.places = {(e["file"], e["before"], e["after"]): e.get("places", 1) for e in entries}
 
     def reason(self, mutant):
         change = change_of(mutant)
         return self.reasons.get((mutant.file, change.before, change.after))
 
     def stale(self):
-        """Entries that are not the text of exactly as many places any more: one, or what the entry says."""
-        for (file, before, after), wanted in self.places.items():
+        """Entries that are not the text of exactly one place any more."""
+        for file, before, after in self.reasons:
             source = Sources.folder / f"{file}.sv"
             places = set()
             if source.exists():
                 changes = (change_of(m) for m in mutants_of(file))
                 places = {c.line for c in changes if (c.before, c.after) == (before, after)}
-            if len(places) != wanted:
+            if len(places) != 1:
                 yield f"{file}: `{before}` -> `{after}` is made at {len(places)} places"

@@ -184,6 +184,19 @@ void add_depths(std::vector<SetupJob>& jobs, const Band& band) {
   }
 }
 
+/// A vertex far beyond the farthest code, at every power of two: a code that is cut too short is near again.
+void add_far_depths(std::vector<SetupJob>& jobs, const Band& band) {
+  for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24}) {
+    for (int bit = kVertexDepthBits; bit < kVertexDepthBits + kVertexDepthRange; ++bit) {
+      SetupJob job;
+      job.state = open_state(static_cast<std::uint8_t>(format));
+      set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
+      job.triangle.z = {0, std::int64_t{1} << bit, 0};
+      jobs.push_back(job);
+    }
+  }
+}
+
 /// All bits of the state that only pass through, on a drawn triangle.
 void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& widths) {
   const auto add = [&](auto set) {
@@ -463,6 +476,7 @@ std::vector<SetupJob> directed_jobs(const SetupModel& model) {
   add_areas(jobs, band);
   add_bounds(jobs, band, model);
   add_depths(jobs, band);
+  add_far_depths(jobs, band);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     number(jobs[i], i);
   }
