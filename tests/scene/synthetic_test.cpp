@@ -174,7 +174,8 @@ TEST_CASE(
   for (const Expected& e :
        {Expected{"tiny_rand", 1'000'000}, Expected{"tiny_grid", 1'000'000}, Expected{"medium", 100'000},
         Expected{"large_ftb", 2000}, Expected{"large_btf", 2000}, Expected{"sliver", 20'000},
-        Expected{"fill_ftb", 128}, Expected{"fill_btf", 128}}) {
+        Expected{"fill_ftb", 128}, Expected{"fill_btf", 128}, Expected{"mesh_bunny", 18'700},
+        Expected{"mesh_crowd", 810'880}}) {
     CAPTURE(e.name);
     const auto all = synthetic_frames();
     const auto info = std::ranges::find(all, e.name, &SyntheticInfo::name);
@@ -230,10 +231,90 @@ TEST_CASE("fill covers every pixel in each layer", "[exhaustive]") {
   CHECK(back.counters.early_z.survivors == 4u * 1920 * 1080);
 }
 
+TEST_CASE("a short list is the same as ever, to the last bit: results and recordings refer to it") {
+  const auto hash = [](std::uint64_t value, const void* data, std::size_t size) {  // FNV-1a
+    for (std::size_t i = 0; i < size; ++i) {
+      value = (value ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+    }
+    return value;
+  };
+  const std::pair<const char*, std::uint64_t> known[] = {
+      {"one_triangle", 0x6fb38b598fd94d37}, {"random_122", 0x468be80f3879ecae},
+      {"tiny_rand", 0x6af7f636cf98c595},    {"tiny_grid", 0x7180d2df470aef9b},
+      {"medium", 0x410694040cdfe21d},       {"large_ftb", 0x2c59912d8287b75a},
+      {"large_btf", 0x786515c5d7f2fb9a},    {"sliver", 0x7e439039aae18bd3},
+      {"fill_ftb", 0xe4067878f469a664},     {"fill_btf", 0x1ae9483acacf6605},
+  };
+  for (const auto& [name, value] : known) {
+    CAPTURE(name);
+    const Frame frame = synthetic_frame(name);
+    std::uint64_t found = 0xcbf29ce484222325u;
+    found = hash(found, frame.vertices.data(), frame.vertices.size() * sizeof(glm::vec4));
+    found = hash(found, frame.indices.data(), frame.indices.size() * sizeof(std::uint32_t));
+    found = hash(found, frame.meta.data(), frame.meta.size());
+    CHECK(found == value);
+  }
+}
+
+TEST_CASE("a full list is of customary length, inside the screen, and begins as the short one does",
+          "[exhaustive]") {
+  for (const SyntheticInfo& info : synthetic_frames()) {
+    CAPTURE(info.name);
+    const std::string name = std::string(info.name) + ":full";
+    const Frame small = synthetic_frame(info.name);
+    const Frame full = load("synthetic:" + name);
+    CHECK(full.name == name);
+    CHECK(full.commands.at(1).index_count ==
+          small.commands.at(1).index_count * static_cast<std::size_t>(info.divisor));
+    CHECK(full.meta.find("\"divisor\":1,") != std::string::npos);
+    CHECK((info.divisor == 1 || full.meta.find(info.full_help) != std::string::npos));
+    CHECK(std::ranges::all_of(full.vertices, [](const glm::vec4& v) {
+      return v.x >= -1 && v.x <= 1 && v.y >= -1 && v.y <= 1 && v.z >= 0 && v.z < 1 && v.w == 1;
+    }));
+    // Depth slabs are thinner where there are more of them.
+    const bool ordered = info.name.ends_with("_ftb") || info.name.ends_with("_btf");
+    for (std::size_t i = 0; !ordered && i < small.vertices.size(); ++i) {
+      REQUIRE(small.vertices[i] == full.vertices[i]);
+    }
+  }
+  check_front_to_back(triangles_of(synthetic_frame("large_ftb:full")), 1);
+  check_front_to_back(triangles_of(synthetic_frame("fill_ftb:full")), 2);
+  check_reversed("large_ftb:full", "large_btf:full");
+}
+
+TEST_CASE("the meshes are closed surfaces: their areas, with signs, add up to nothing") {
+  for (const char* name : {"mesh_bunny:full", "mesh_crowd:full"}) {
+    CAPTURE(name);
+    const std::vector<Triangle> triangles = triangles_of(synthetic_frame(name));
+    double sum = 0;
+    double magnitude = 0;
+    for (const Triangle& t : triangles) {
+      const double signed_area =
+          ((t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y)) / 2;
+      sum += signed_area;
+      magnitude += std::abs(signed_area);
+    }
+    CHECK(std::abs(sum) < 1e-3 * magnitude);
+  }
+}
+
+TEST_CASE("a synthetic frame has float32 depth where that is asked for, and the same triangles") {
+  const Frame fixed = synthetic_frame("medium");
+  const Frame real = synthetic_frame("medium", DepthFormat::kFloat32);
+  CHECK(real.targets.at(0).depth_format == DepthFormat::kFloat32);
+  CHECK(real.vertices == fixed.vertices);
+}
+
 TEST_CASE("an unknown synthetic frame is an error that names the legal ones") {
   CHECK_THROWS_AS(load("synthetic:tiny"), InputError);
   CHECK_THROWS_WITH(load("synthetic:tiny"), Contains("synthetic:tiny: no such frame") &&
                                                 Contains("tiny_rand, tiny_grid") && Contains("fill_btf") &&
                                                 !Contains("\n"));
+  CHECK_THROWS_WITH(load("synthetic:tiny:full"), Contains("synthetic:tiny:full: no such frame"));
+  for (const char* suffix : {"", "Full", "full ", "full:full", "50"}) {
+    const std::string name = "synthetic:medium:" + std::string(suffix);
+    CHECK_THROWS_WITH(load(name), Contains(name + ": what follows the name is \"" + suffix + "\"; legal: ") &&
+                                      Contains("synthetic:medium or synthetic:medium:full"));
+  }
   CHECK_THROWS_WITH(load("synthetic:"), Contains("synthetic:: ") && Contains("one_triangle"));
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -18,6 +20,7 @@ namespace halfspace {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
+constexpr std::string_view kFull = "full";
 constexpr std::int64_t kGrid = 256;  ///< positions a pixel
 
 struct Size {
@@ -45,6 +48,7 @@ struct Point {
   double y = 0;
 };
 using Shape = std::array<Point, 3>;
+using Axes = std::array<glm::dvec3, 3>;
 
 double area(const Shape& s) {
   return std::abs((s[1].x - s[0].x) * (s[2].y - s[0].y) - (s[2].x - s[0].x) * (s[1].y - s[0].y)) / 2;
@@ -81,6 +85,18 @@ class Generator {
       const double length = std::sqrt(p.x * p.x + p.y * p.y);
       if (length > 0.1 && length <= 1) {
         return {p.x / length, p.y / length};
+      }
+    }
+  }
+
+  /// Three axes at right angles, of length 1.
+  Axes axes() {
+    while (true) {
+      const glm::dvec3 u(real({-1, 1}), real({-1, 1}), real({-1, 1}));
+      const glm::dvec3 v(real({-1, 1}), real({-1, 1}), real({-1, 1}));
+      const glm::dvec3 w = glm::cross(u, v);
+      if (glm::dot(u, u) > 0.1 && glm::dot(w, w) > 0.1) {
+        return {glm::normalize(u), glm::normalize(w), glm::normalize(glm::cross(u, w))};
       }
     }
   }
@@ -239,6 +255,89 @@ Triangles fill_ftb(int divisor) {
   return triangles;
 }
 
+/// A point of the circle. It goes round once while `turn` goes from 0 to 1, at a speed that varies by 2; by
+/// square roots alone, which are the same on every machine, as sines are not.
+Point on_circle(double turn) {
+  const double quarters = 4 * (turn - std::floor(turn));
+  const double x = quarters < 2 ? 1 - quarters : quarters - 3;
+  const double y = quarters < 2 ? 1 - std::abs(x) : std::abs(x) - 1;
+  const double length = std::sqrt(x * x + y * y);
+  return {x / length, y / length};
+}
+
+/// How far the surface of the animal is from its middle, in this direction: 0.8 to 1.2.
+double animal_radius(const glm::dvec3& d) {
+  const double along = d.x * (d.x * d.x * 4 - 3);  // Chebyshev polynomials: -1 to 1
+  const double across = d.y * d.y * (d.y * d.y * 8 - 8) + 1;
+  const double up = d.z * (d.z * d.z * 4 - 3);
+  return 1 + 0.12 * along * across + 0.08 * up * across;
+}
+
+/// What an animal is made of: from pole to pole, and around.
+struct Net {
+  int bands = 0;
+  int columns = 0;
+};
+
+/// Appends a closed surface, seen from afar, band by band along axes[2]. `middle`: in pixels, and its
+/// depth. In x and y the surface reaches at most 1.2 times `pixels` from it, in depth 1.2 times `depth`.
+void add_animal(const Net& net, const glm::dvec3& middle, double pixels, double depth, const Axes& axes,
+                Triangles& triangles) {
+  const auto corner = [&](int band, int column) {
+    const Point polar = on_circle(0.5 * band / net.bands);
+    const Point around = on_circle(static_cast<double>(column % net.columns) / net.columns);
+    const glm::dvec3 direction(polar.y * around.x, polar.y * around.y, polar.x);
+    const glm::dvec3 p =
+        animal_radius(direction) * (direction.x * axes[0] + direction.y * axes[1] + direction.z * axes[2]);
+    return Corner{to_grid(middle.x + pixels * p.x), to_grid(middle.y + pixels * p.y), middle.z + depth * p.z};
+  };
+  std::vector<Corner> above;
+  std::vector<Corner> below;
+  for (int band = 0; band <= net.bands; ++band) {
+    above.swap(below);
+    below.clear();
+    for (int column = 0; column <= net.columns; ++column) {
+      below.push_back(corner(band, column));
+    }
+    for (std::size_t i = 1; band > 0 && i < below.size(); ++i) {
+      if (band > 1) {
+        triangles.push_back({above[i - 1], above[i], below[i - 1]});
+      }
+      if (band < net.bands) {
+        triangles.push_back({above[i], below[i], below[i - 1]});
+      }
+    }
+  }
+}
+
+/// One animal as high as the screen. Its bands run across the screen, so that its far side is not drawn
+/// first.
+Triangles mesh_bunny(int divisor) {
+  const Axes axes{{{0, 0, 1}, {-0.8, 0.6, 0}, {0.6, 0.8, 0}}};
+  Triangles triangles;
+  add_animal({.bands = 86, .columns = 110}, {960, 540, 0.5}, 440, 0.4, axes, triangles);
+  triangles.resize(triangles.size() / static_cast<std::size_t>(divisor));
+  return triangles;
+}
+
+/// Four rows of seven, which overlap, each at a random depth.
+Triangles mesh_crowd(int divisor) {
+  constexpr double kRadius = 125;
+  constexpr double kMargin = 1.2 * kRadius;
+  Generator random(kFullHd);
+  Triangles triangles;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      const double x = kMargin + (static_cast<double>(kFullHd.width) - 2 * kMargin) / 6 * column;
+      const double y = kMargin + (static_cast<double>(kFullHd.height) - 2 * kMargin) / 3 * row;
+      const double z = random.real({0.1, 0.9});
+      add_animal({.bands = 81, .columns = 181}, {x, y, z}, kRadius, 0.08, random.axes(), triangles);
+    }
+  }
+  triangles.resize(triangles.size() / static_cast<std::size_t>(divisor));
+  return triangles;
+}
+
 template <Triangles (*FrontToBack)(int)>
 Triangles back_to_front(int divisor) {
   Triangles triangles = FrontToBack(divisor);
@@ -252,21 +351,31 @@ struct Kind {
 };
 
 constexpr std::array kInfos{
-    SyntheticInfo{"one_triangle", "512x512: one right triangle, half of the screen", 1},
+    SyntheticInfo{"one_triangle", "512x512: one right triangle, half of the screen"},
     SyntheticInfo{
         "random_122",
-        "512x512: 1,000 triangles of mean area 122 px, three uniform points of a square at a uniform place",
-        1},
-    SyntheticInfo{"tiny_rand", "1920x1080: 20,000 (1 M / 50) of area 1 to 2 px, random place and depth", 50},
+        "512x512: 1,000 triangles of mean area 122 px, three uniform points of a square at a uniform place"},
+    SyntheticInfo{"tiny_rand", "1920x1080: 20,000 (1 M / 50) of area 1 to 2 px, random place and depth", 50,
+                  "1920x1080: 1,000,000 of area 1 to 2 px, random place and depth"},
     SyntheticInfo{"tiny_grid",
-                  "1920x1080: 20,000 (1 M / 50), the first 10 rows of a jittered 1000x500 grid of cells", 50},
-    SyntheticInfo{"medium", "1920x1080: 5,000 (100 k / 20) of area 50 to 150 px, random place and depth", 20},
-    SyntheticInfo{"large_ftb", "1920x1080: 100 (2 k / 20) of area 30 k to 70 k px, front to back", 20},
-    SyntheticInfo{"large_btf", "1920x1080: the same 100 (2 k / 20), back to front", 20},
+                  "1920x1080: 20,000 (1 M / 50), the first 10 rows of a jittered 1000x500 grid of cells", 50,
+                  "1920x1080: 1,000,000, a jittered 1000x500 grid of cells, row by row"},
+    SyntheticInfo{"medium", "1920x1080: 5,000 (100 k / 20) of area 50 to 150 px, random place and depth", 20,
+                  "1920x1080: 100,000 of area 50 to 150 px, random place and depth"},
+    SyntheticInfo{"large_ftb", "1920x1080: 100 (2 k / 20) of area 30 k to 70 k px, front to back", 20,
+                  "1920x1080: 2,000 of area 30 k to 70 k px, front to back"},
+    SyntheticInfo{"large_btf", "1920x1080: the same 100 (2 k / 20), back to front", 20,
+                  "1920x1080: the same 2,000, back to front"},
     SyntheticInfo{"sliver", "1920x1080: 200 (20 k / 100), 1000 px long, 0.1 to 0.9 px wide, any direction",
-                  100},
-    SyntheticInfo{"fill_ftb", "1920x1080: 4 (64 / 16) full-screen layers of 2 triangles, front to back", 16},
-    SyntheticInfo{"fill_btf", "1920x1080: the same 4 (64 / 16), back to front", 16},
+                  100, "1920x1080: 20,000, 1000 px long, 0.1 to 0.9 px wide, any direction"},
+    SyntheticInfo{"fill_ftb", "1920x1080: 4 (64 / 16) full-screen layers of 2 triangles, front to back", 16,
+                  "1920x1080: 64 full-screen layers of 2 triangles, front to back"},
+    SyntheticInfo{"fill_btf", "1920x1080: the same 4 (64 / 16), back to front", 16,
+                  "1920x1080: the same 64, back to front"},
+    SyntheticInfo{"mesh_bunny", "1920x1080: 1,870 (18.7 k / 10), the first of a closed surface seen close up",
+                  10, "1920x1080: 18,700, a closed surface as high as the screen"},
+    SyntheticInfo{"mesh_crowd", "1920x1080: 20,272 (811 k / 40), the first of 28 closed surfaces", 40,
+                  "1920x1080: 810,880, 28 closed surfaces that overlap"},
 };
 
 constexpr std::array<Kind, kInfos.size()> kKinds{{
@@ -280,6 +389,8 @@ constexpr std::array<Kind, kInfos.size()> kKinds{{
     {kFullHd, sliver},
     {kFullHd, fill_ftb},
     {kFullHd, back_to_front<fill_ftb>},
+    {kFullHd, mesh_bunny},
+    {kFullHd, mesh_crowd},
 }};
 
 std::uint32_t bits(std::initializer_list<Flag> flags) {
@@ -290,7 +401,7 @@ std::uint32_t bits(std::initializer_list<Flag> flags) {
   return all;
 }
 
-Frame to_frame(const SyntheticInfo& info, Size size, const Triangles& triangles) {
+Frame to_frame(const SyntheticInfo& info, Size size, const Triangles& triangles, DepthFormat depth) {
   const auto width = static_cast<float>(size.width);
   const auto height = static_cast<float>(size.height);
   Frame frame;
@@ -298,7 +409,7 @@ Frame to_frame(const SyntheticInfo& info, Size size, const Triangles& triangles)
   frame.targets.push_back({.width = static_cast<std::uint32_t>(size.width),
                            .height = static_cast<std::uint32_t>(size.height),
                            .samples = 1,
-                           .depth_format = DepthFormat::kUnorm24,
+                           .depth_format = depth,
                            .color_count = 1,
                            .presented = true,
                            .depth_surface = 0});
@@ -314,6 +425,8 @@ Frame to_frame(const SyntheticInfo& info, Size size, const Triangles& triangles)
   draw.index_count = static_cast<std::uint32_t>(3 * triangles.size());
   draw.vertex_count = draw.index_count;
   frame.commands.push_back(draw);
+  frame.indices.reserve(draw.index_count);
+  frame.vertices.reserve(draw.index_count);
   for (const Triangle& triangle : triangles) {
     for (const Corner& corner : triangle) {
       frame.indices.push_back(static_cast<std::uint32_t>(frame.vertices.size()));
@@ -342,19 +455,34 @@ std::string synthetic_help() {
   for (const SyntheticInfo& info : kInfos) {
     text += fmt::format("  {}{:<13} {}\n", kSyntheticPrefix, info.name, info.help);
   }
-  return text;
+  return text +
+         fmt::format("  {}NAME:{:<8} the list of NAME undivided: 1 M, not 20,000\n", kSyntheticPrefix, kFull);
 }
 
-Frame synthetic_frame(std::string_view name) {
-  std::string names;
-  for (std::size_t i = 0; i < kInfos.size(); ++i) {
-    if (kInfos[i].name == name) {
-      return to_frame(kInfos[i], kKinds[i].size, kKinds[i].make(kInfos[i].divisor));
+Frame synthetic_frame(std::string_view name, DepthFormat depth) {
+  const std::size_t colon = std::min(name.find(':'), name.size());
+  const bool full = colon != name.size();
+  const std::string_view kind = name.substr(0, colon);
+  const auto info = std::ranges::find(kInfos, kind, &SyntheticInfo::name);
+  if (info == kInfos.end()) {
+    std::string names;
+    for (const SyntheticInfo& each : kInfos) {
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
     }
-    names += fmt::format("{}{}", i == 0 ? "" : ", ", kInfos[i].name);
+    throw InputError(
+        fmt::format("{}{}: no such frame; legal names: {}", kSyntheticPrefix, printable(name), names));
   }
-  throw InputError(
-      fmt::format("{}{}: no such frame; legal names: {}", kSyntheticPrefix, printable(name), names));
+  if (full && name.substr(colon + 1) != kFull) {
+    throw InputError(fmt::format("{}{}: what follows the name is {}; legal: {}{} or {}{}:{}",
+                                 kSyntheticPrefix, printable(name), quote(name.substr(colon + 1)),
+                                 kSyntheticPrefix, kind, kSyntheticPrefix, kind, kFull));
+  }
+  SyntheticInfo list = *info;
+  if (full) {
+    list = {name, info->divisor == 1 ? info->help : info->full_help, 1, {}};
+  }
+  const Kind& maker = kKinds[static_cast<std::size_t>(info - kInfos.begin())];
+  return to_frame(list, maker.size, maker.make(list.divisor), depth);
 }
 
 }  // namespace halfspace
