@@ -1,0 +1,212 @@
+#include "halfspace/speed/stage_cost.hpp"
+
+#include <array>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/frame_source.hpp"
+#include "halfspace/machine/functional.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/sink.hpp"
+#include "halfspace/machine/passage/tile_walker.hpp"
+#include "halfspace/machine/passage/z_lookup.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/surfaces.hpp"
+#include "halfspace/machine/tile_size.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace {
+namespace {
+
+/// The last stage of a prefix.
+enum class Last : std::size_t {
+  kSurfaces,
+  kFrontEnd,
+  kSetup,
+  kTileWalker,
+  kEdgeEvaluator,
+  kQuadGenerator,
+  kZTest,
+  kPixelCounts,
+  kZCache
+};
+constexpr std::size_t kPrefixes = static_cast<std::size_t>(Last::kZCache) + 1;
+
+/// The compiler must compute `packet`, and put it in memory.
+template <class Packet>
+void drop(const Packet& packet) {
+  asm volatile("" : : "r"(&packet) : "memory");
+}
+
+/// run_in_order() without observers and streams, up to a stage.
+template <int TileSize, Last kLast>
+class PrefixRun {
+ public:
+  PrefixRun(const Frame& frame, const Config& config)
+      : frame_(frame), config_(config), walker_(walker_config(config)) {
+    result_.surfaces = make_surfaces(frame, TileSize, false);
+    places_ = place_surfaces(result_.surfaces, config);
+    const ZCacheShape shape = z_cache_shape(config);
+    z_cache_ = ZCache(shape, memory_lines(places_, shape));
+  }
+
+  Counters run() {
+    FrameSource source(frame_, config_, nullptr, result_, draws_);
+    for (std::uint32_t i = 0; i < frame_.commands.size(); ++i) {
+      draw_ = source.begin(i);
+      if (draw_ != nullptr && kLast < Last::kFrontEnd) {
+        continue;
+      }
+      surface_ =
+          draw_ == nullptr || draw_->surface == kNoSurface ? nullptr : &result_.surfaces[draw_->surface];
+      while (const std::optional<SourceItem> item = source.next()) {
+        if (item->draw == nullptr) {
+          clear_surface(result_.surfaces[item->surface], item->code);
+          z_cache_.clear(places_[item->surface]);
+        } else {
+          set_up(item->triangles);
+        }
+      }
+    }
+    collect_draws(draws_, result_);
+    return result_.counters;
+  }
+
+ private:
+  void set_up(std::span<const ScreenTriangle> triangles) {
+    if constexpr (kLast < Last::kSetup) {
+      return drop(triangles);
+    } else {
+      for (const ScreenTriangle& triangle : triangles) {
+        if (!passage::setup(triangle, *draw_, triangle_)) {
+          continue;
+        }
+        if constexpr (kLast < Last::kTileWalker) {
+          drop(triangle_);
+        } else {
+          walker_.walk<TileSize>(
+              triangle_, *draw_,
+              [this](const TileJob& job, TileWork work, std::uint32_t /*steps*/) { this->job(job, work); });
+        }
+      }
+    }
+  }
+
+  void job(const TileJob& job, TileWork work) {
+    if constexpr (kLast < Last::kEdgeEvaluator) {
+      return drop(job);
+    } else {
+      const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, *draw_);
+      if constexpr (kLast < Last::kQuadGenerator) {
+        return drop(coverage);
+      } else if (any(coverage.mask)) {
+        burst(passage::quad_generator<TileSize>(coverage, *draw_));
+      }
+    }
+  }
+
+  void burst(const Burst& burst) {
+    if constexpr (kLast < Last::kZTest) {
+      return drop(burst);
+    } else {
+      const Coverage& coverage = burst.packet.coverage;
+      std::uint32_t* const stored =
+          surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
+      const TileMask passed = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+      if constexpr (kLast < Last::kPixelCounts) {
+        return drop(passed);
+      }
+      passage::sink<TileSize>(coverage.mask, passed, coverage.tile_x, coverage.tile_y, triangle_.triangle,
+                              *draw_, surface_);
+      if (kLast >= Last::kZCache && touches_depth(draw_->early_z)) {
+        const int parts = config_.z_cache.parts;
+        drop(passage::z_cache(z_cache_, places_[draw_->surface], coverage,
+                              passage::touched_parts<TileSize>(coverage, *draw_, parts),
+                              passage::written_parts<TileSize>(passed, *draw_, parts), *draw_));
+      }
+    }
+  }
+
+  const Frame& frame_;
+  const Config& config_;
+  FrameResult result_;
+  std::vector<ZSurface> places_;
+  std::deque<DrawContext> draws_;
+  passage::TileWalker walker_;
+  ZCache z_cache_;
+
+  // Of the draw at work.
+  DrawContext* draw_ = nullptr;
+  Surface* surface_ = nullptr;
+  SetupTriangle triangle_;
+  TileCodes<TileSize> codes_{};
+};
+
+template <Last kLast>
+Counters run_prefix(const Frame& frame, const Config& config) {
+  return with_tile_size(config.tile_walker.tile_size,
+                        [&](auto size) { return PrefixRun<size(), kLast>(frame, config).run(); });
+}
+
+constexpr std::array<Counters (*)(const Frame&, const Config&), kPrefixes> kRunPrefix{
+    run_prefix<Last::kSurfaces>,   run_prefix<Last::kFrontEnd>,      run_prefix<Last::kSetup>,
+    run_prefix<Last::kTileWalker>, run_prefix<Last::kEdgeEvaluator>, run_prefix<Last::kQuadGenerator>,
+    run_prefix<Last::kZTest>,      run_prefix<Last::kPixelCounts>,   run_prefix<Last::kZCache>};
+
+std::vector<StageCost> stages_of(const Frame& frame, const Counters& c) {
+  std::uint64_t pixels = 0;
+  for (const Target& target : frame.targets) {
+    pixels += target.depth_surface == kNoSurface ? 0 : std::uint64_t{target.width} * target.height;
+  }
+  const TileWalkerCounters& walker = c.tile_walker;
+  const std::uint64_t decisions = walker.blocks_rejected + walker.blocks_accepted + walker.blocks_partial +
+                                  walker.tiles_rejected + walker.tiles_accepted + walker.tiles_partial;
+  return {
+      {.stage = "surfaces", .item = "pixel", .items = pixels, .milliseconds = {}},
+      {.stage = "front_end", .item = "triangle", .items = c.front_end.triangles, .milliseconds = {}},
+      {.stage = "setup", .item = "triangle", .items = c.setup.triangles, .milliseconds = {}},
+      {.stage = "tile_walker", .item = "decision", .items = decisions, .milliseconds = {}},
+      {.stage = "edge_evaluator",
+       .item = "job",
+       .items = c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped,
+       .milliseconds = {}},
+      {.stage = "quad_generator", .item = "burst", .items = c.quad_generator.tiles, .milliseconds = {}},
+      {.stage = "z_test", .item = "fragment", .items = c.quad_generator.fragments, .milliseconds = {}},
+      {.stage = "pixel_counts", .item = "fragment", .items = c.quad_generator.fragments, .milliseconds = {}},
+      {.stage = "z_cache", .item = "burst", .items = c.early_z.z_bursts, .milliseconds = {}}};
+}
+
+template <class Action>
+double time_of(const Action& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+StageCosts stage_costs(const Frame& frame, const Config& config, int repeat) {
+  StageCosts costs{.stages = stages_of(frame, kRunPrefix.back()(frame, config)), .functional = {}};
+  for (int pass = 0; pass <= repeat; ++pass) {
+    std::array<double, kPrefixes> times{};
+    for (std::size_t i = 0; i < kPrefixes; ++i) {
+      times[i] = time_of([&] { kRunPrefix[i](frame, config); });
+    }
+    const double functional = time_of([&] { run_functional(frame, config); });
+    if (pass == 0) {  // warms caches and page tables
+      continue;
+    }
+    costs.functional.push_back(functional);
+    for (std::size_t i = 0; i < kPrefixes; ++i) {
+      costs.stages[i].milliseconds.push_back(times[i] - (i == 0 ? 0 : times[i - 1]));
+    }
+  }
+  return costs;
+}
+
+}  // namespace halfspace
