@@ -1,12 +1,23 @@
-/// halfspace bench speed: quads a second of the functional model.
+/// halfspace bench speed: the functional model beside a plain loop and llvmpipe, in turns on the same
+/// triangles.
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <functional>
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/cli/progress.hpp"
 #include "halfspace/machine/functional.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/scene/synthetic.hpp"
+#include "halfspace/speed/llvmpipe.hpp"
+#include "halfspace/speed/scalar_loop.hpp"
+#include "halfspace/speed/speed_table.hpp"
 
 namespace halfspace {
 namespace {
@@ -14,46 +25,188 @@ namespace {
 struct SpeedOptions {
   std::vector<std::string> inputs;
   MachineOptions machine;
-  int repeat = 9;
+  std::string depth;
+  int repeat = 7;
+  bool no_llvmpipe = false;
+  std::string json;
+  std::string csv;
+
+  /// The lists of customary length where none is named.
+  [[nodiscard]] std::vector<std::string> all_inputs() const {
+    std::vector<std::string> all = inputs;
+    for (const SyntheticInfo& info : synthetic_frames()) {
+      if (inputs.empty() && info.divisor != 1) {
+        all.push_back(fmt::format("{}{}:full", kSyntheticPrefix, info.name));
+      }
+    }
+    return all;
+  }
+
+  [[nodiscard]] Frame frame(const std::string& input) const {
+    if (!input.starts_with(kSyntheticPrefix)) {
+      if (!depth.empty()) {
+        throw InputError(fmt::format(
+            "{}: has its own depth format, and --depth is '{}'; legal with --depth: synthetic frames", input,
+            depth));
+      }
+      return load(input);
+    }
+    return synthetic_frame(std::string_view(input).substr(kSyntheticPrefix.size()),
+                           depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
+  }
 };
 
-/// Times what `run` does between reading and writing files: front end, units, counters and per-pixel counts.
-void print_speed(const Frame& frame, const Config& config, int repeat) {
-  std::vector<double> times;
-  Counters counters;
-  for (int i = 0; i <= repeat; ++i) {
-    const double time = milliseconds([&] { counters = run_functional(frame, config).counters; });
-    if (i > 0) {  // the first run warms caches and page tables
-      times.push_back(time);
+/// A contender, and how it is run on the frame at hand.
+struct Runner {
+  Contender contender;
+  std::function<void()> prepare;         ///< before each pass; not timed
+  std::function<void()> run;             ///< a pass
+  std::function<std::uint64_t()> count;  ///< once, before the passes: its survivors
+};
+
+/// All of them, on one frame after the other.
+class SpeedBench {
+ public:
+  explicit SpeedBench(const SpeedOptions& options) : options_(options), config_(options.machine.config()) {
+    std::string why = "by --no-llvmpipe";
+    if (!options.no_llvmpipe) {
+      llvmpipe_ = Llvmpipe::open(why);
     }
+    const auto nothing = [] {};
+    runners_.push_back({.contender = {.name = "functional", .about = "all that `run` does between its files"},
+                        .prepare = nothing,
+                        .run = [this] { run_functional(frame_, config_); },
+                        .count = [this] { return count_functional(); }});
+    runners_.push_back({.contender = {.name = "scalar_loop",
+                                      .yardstick = true,
+                                      .about = "bounding boxes pixel by pixel, behind the front end"},
+                        .prepare = [this] { loop_->clear(); },
+                        .run = [this] { loop_->draw(); },
+                        .count = [this] { return count_scalar(); }});
+    runners_.push_back({.contender = {.name = "llvmpipe",
+                                      .yardstick = true,
+                                      .about = llvmpipe_ ? llvmpipe_->name() + ", depth only" : why,
+                                      .absent = !llvmpipe_},
+                        .prepare = [this] { llvmpipe_->clear(); },
+                        .run = [this] { llvmpipe_->draw(); },
+                        .count = [this] { return llvmpipe_->count(); }});
   }
-  const auto [least, most] = std::minmax_element(times.begin(), times.end());
-  fmt::print("| {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n", frame.name,
-             counters.front_end.triangles, counters.quad_generator.fragments, counters.quad_generator.quads,
-             *least, median(times), *most,
-             static_cast<double>(counters.quad_generator.quads) / median(times) / 1e3);
+
+  SpeedTable measure_all() {
+    SpeedTable table{.config = config_, .repeat = options_.repeat, .contenders = {}, .rows = {}};
+    for (const Runner& runner : runners_) {
+      table.contenders.push_back(runner.contender);
+    }
+    for (const std::string& input : options_.all_inputs()) {
+      frame_ = options_.frame(input);
+      loop_.emplace(frame_, config_);
+      if (llvmpipe_) {
+        llvmpipe_->load(frame_, config_);
+      }
+      table.rows.push_back(measure());
+    }
+    return table;
+  }
+
+ private:
+  std::uint64_t count_functional() {
+    counters_ = run_functional(frame_, config_).counters;
+    return counters_.early_z.survivors;
+  }
+
+  std::uint64_t count_scalar() {
+    const ScalarCounts counts = loop_->count();
+    if (counts.fragments != counters_.quad_generator.fragments) {
+      throw InputError(fmt::format("{}: coverage differs: functional {} fragments, scalar loop {}",
+                                   frame_.name, counters_.quad_generator.fragments, counts.fragments));
+    }
+    return counts.survivors;
+  }
+
+  SpeedRow measure() {
+    SpeedRow row{.name = frame_.name, .runs = std::vector<ContenderRun>(runners_.size())};
+    for (const Target& target : frame_.targets) {
+      row.depth = row.depth == DepthFormat::kNone ? target.depth_format : row.depth;
+    }
+    ProgressBar bar(frame_.name);
+    // The first turn counts, and warms caches and page tables.
+    const auto turns = static_cast<std::size_t>(options_.repeat) + 1;
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+      for (std::size_t i = 0; i < runners_.size(); ++i) {
+        bar.update(turn * runners_.size() + i, turns * runners_.size());
+        if (runners_[i].contender.absent) {
+          continue;
+        }
+        if (turn == 0) {
+          row.runs[i].survivors = runners_[i].count();
+          continue;
+        }
+        runners_[i].prepare();
+        row.runs[i].milliseconds.push_back(milliseconds(runners_[i].run));
+      }
+    }
+    row.triangles = counters_.front_end.triangles;
+    row.fragments = counters_.quad_generator.fragments;
+    row.quads = counters_.quad_generator.quads;
+    return row;
+  }
+
+  const SpeedOptions& options_;
+  Config config_;
+  std::unique_ptr<Llvmpipe> llvmpipe_;  ///< null where it is absent
+  std::vector<Runner> runners_;         ///< ours first
+
+  // Of the workload at hand.
+  Frame frame_;
+  std::optional<ScalarLoop> loop_;
+  Counters counters_;  ///< of functional
+};
+
+void write_text(const std::string& path, const std::string& text) {
+  if (path.empty()) {
+    return;
+  }
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) {
+    throw InputError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
 }
 
 void bench_speed(const SpeedOptions& options) {
-  const Config config = options.machine.config();
-  fmt::print("functional, one thread, {} runs\n\n", options.repeat);
-  fmt::print("| frame | triangles | fragments | quads | min ms | median ms | max ms | Mquads/s |\n");
-  fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|\n");
-  for (const std::string& input : options.inputs) {
-    print_speed(load(input), config, options.repeat);
+  // What cannot be read or written is known before minutes have passed.
+  for (const std::string& input : options.all_inputs()) {
+    (void)options.frame(input);
   }
+  for (const std::string& path : {options.json, options.csv}) {
+    write_text(path, "");
+  }
+  const SpeedTable table = SpeedBench(options).measure_all();
+  write_text(options.json, speed_json(table));
+  write_text(options.csv, speed_csv(table));
+  fmt::print("{}", speed_markdown(table));
 }
 
 }  // namespace
 
 void add_bench_speed(CLI::App& bench) {
   auto options = std::make_shared<SpeedOptions>();
-  CLI::App* speed = bench.add_subcommand("speed", "speed of the functional model, in quads a second");
-  speed->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
+  CLI::App* speed = bench.add_subcommand(
+      "speed", "speed of the functional model, beside a plain scalar loop and Mesa's llvmpipe");
+  speed->add_option("INPUT", options->inputs,
+                    "frames, meshes or synthetic:NAME (default: every synthetic:NAME:full, some minutes)");
   options->machine.add_to(*speed);
-  speed->add_option("--repeat", options->repeat, "number of timed runs")
+  speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
+      ->check(CLI::IsMember({"unorm24", "float32"}))
+      ->type_name("FORMAT");
+  speed->add_option("--repeat", options->repeat, "number of timed passes of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  speed->add_flag("--no-llvmpipe", options->no_llvmpipe, "leave llvmpipe out");
+  speed->add_option("--json", options->json, "write the table and every pass's time as JSON too")
+      ->type_name("FILE");
+  speed->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");
   speed->callback([options] { bench_speed(*options); });
 }
 
