@@ -37,7 +37,7 @@ rtl: build/release/build.ninja ## Verilate the pipeline of every named configura
 	cmake --build --preset release --target halfspace_cli raster_pipeline_fast
 
 .PHONY: bench
-bench: release-program ## Measure the functional model on the shipped frames.
+bench: release-program ## Measure the functional model on the shipped frames; bench-speed measures more.
 	$(HALFSPACE) bench speed scenes/*.ptf.xz
 
 # Captured frames that do not ship, where the tests look for them.
@@ -51,6 +51,22 @@ bench-error: build/release/build.ninja $(PLOT_TOOLS) ## Measure every fidelity b
 	$(HALFSPACE) bench error --config configs/baseline.toml $(SCENES) $(CAPTURED) --synthetic --out out/error
 	.venv/bin/python tools/plot_error.py out/error/error.json docs/images/error.png
 	tools/write_figures.py bench-error --captured $(CAPTURED)
+
+# What `halfspace bench speed` says of the ten full lists, to show and to remember.
+.PHONY: speed
+speed: release-program
+	@mkdir -p out/speed
+	$(HALFSPACE) bench speed --json out/speed/speed.json --csv out/speed/speed.csv > out/speed/speed.md
+
+.PHONY: bench-speed
+bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and llvmpipe; write docs/guides/speed.md's table and picture.
+	.venv/bin/python tools/plot_speed.py out/speed/speed.json docs/images/speed.svg
+	tools/write_figures.py bench-speed
+
+.PHONY: bench-history
+bench-history: speed $(PLOT_TOOLS) ## Measure the same, and append it to docs/speed_history.csv and its picture.
+	tools/bench_history.py out/speed/speed.json docs/speed_history.csv
+	.venv/bin/python tools/plot_speed.py docs/speed_history.csv docs/images/speed_history.svg
 
 .PHONY: depth-error
 depth-error: build/release/build.ninja ## Measure the largest error of depth over 10^8 samples; write docs/numerics.md's table.
@@ -103,8 +119,8 @@ format: ## Lay out the sources by clang-format.
 clean: ## Remove everything that was built.
 	rm -rf build out .venv
 
-# Each figure alone by its name, as `make bench-speed`: see tools/write_figures.py.
-FIGURES := demo-figure bench-speed bench-time bench-analytic reference-figure
+# Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
+FIGURES := demo-figure bench-frames bench-stages bench-time bench-analytic reference-figure
 .PHONY: docs-figures $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool

@@ -2,7 +2,7 @@
 """Runs the commands whose output the pages show, and writes it into the pages.
 
     tools/write_figures.py                                # all that take seconds, on the frames that ship
-    tools/write_figures.py bench-speed --captured DIR/*.ptf.xz
+    tools/write_figures.py bench-frames --captured DIR/*.ptf.xz
     tools/write_figures.py --check demo                   # write nothing; exit status 1 if it is stale
 
 Each figure is a block `<!-- NAME: begin -->` ... `<!-- NAME: end -->` of a page, with its command. Rows
@@ -78,6 +78,40 @@ def table(tools, kind, *options):
     return f"    {command}\n\n{how}{marked(rows, map(frame_name, tools.captured))}"
 
 
+def columns(text, names):
+    """Only these columns of a table of Markdown and of the text before it."""
+    lines = text.splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("| "))
+    head = [cell.strip() for cell in lines[start].split("|")]
+    keep = [head.index(name) for name in names if name in head]
+    for i in range(start, len(lines)):
+        cells = lines[i].split("|")
+        lines[i] = "|" + "|".join(cells[k] for k in keep) + "|"
+    return "\n".join(lines)
+
+
+def bench_frames(tools):
+    """The captured frames and those that ship, in brief."""
+    ratios = ["scalar loop / functional", "llvmpipe / functional"]
+    names = ["workload", "depth", "triangles", "fragments", "functional", *ratios, "Mquads/s"]
+    return columns(table(tools, "speed"), names)
+
+
+def bench_speed(tools):
+    """The table that `halfspace bench speed` wrote; see the Makefile."""
+    method, rows = (ROOT / "out/speed/speed.md").read_text().split("\n\n", 1)
+    return f"{processor()}; {method}.\n\n{rows}"
+
+
+def bench_stages(tools):
+    lists = [f"synthetic:{name}:full" for name in ("tiny_rand", "medium", "large_btf", "sliver", "mesh_crowd")]
+    inputs = ["scenes/cc0_truck.ptf.xz", *lists]
+    method, rows = output(tools.program, "bench", "stages", *inputs).split("\n\n", 1)
+    command = textwrap.fill(" ".join(["halfspace bench stages", *inputs]), 88, break_on_hyphens=False)
+    command = command.replace("\n", " \\\n      ")
+    return f"    {command}\n\n{processor()}; {method}.\n\n{rows}"
+
+
 def reference(tools):
     """Counts of the reference, a row for each depth surface with both ways to take late draws."""
     columns = ["triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)"]
@@ -118,15 +152,18 @@ def bench_analytic(tools):
 
 FIGURES = {
     "demo": ("README.md", demo),
-    "bench-speed": ("README.md", lambda tools: table(tools, "speed")),
+    "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-analytic": ("docs/guides/time.md", bench_analytic),
     "reference": ("docs/guides/reference.md", reference),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
+    "bench-speed": ("docs/guides/speed.md", bench_speed),
+    "bench-stages": ("docs/guides/speed.md", bench_stages),
 }
-# The others need the RTL or many minutes: `make bench-error`, `make depth-error`.
-ALL = [name for name in FIGURES if name not in ("depth-error", "bench-error")]
+# The others need the RTL or minutes: `make bench-error`, `make depth-error`, `make bench-speed bench-stages`.
+SLOW = ("depth-error", "bench-error", "bench-speed", "bench-stages")
+ALL = [name for name in FIGURES if name not in SLOW]
 
 
 def main():
@@ -134,7 +171,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last two)")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last four)")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
