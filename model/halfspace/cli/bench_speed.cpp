@@ -195,7 +195,7 @@ void add_bench_speed(CLI::App& bench) {
   CLI::App* speed = bench.add_subcommand(
       "speed", "speed of the functional model, beside a plain scalar loop and Mesa's llvmpipe");
   speed->add_option("INPUT", options->inputs,
-                    "frames, meshes or synthetic:NAME (default: every synthetic:NAME:full, some minutes)");
+                    "frames, meshes or synthetic:NAME (default: the ten full lists, which take minutes)");
   options->machine.add_to(*speed);
   speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
       ->check(CLI::IsMember({"unorm24", "float32"}))

@@ -217,6 +217,8 @@ class EglLlvmpipe final : public Llvmpipe {
 
   std::uint64_t count() override {
     clear();
+    draw();  // without the query shaders are others: they are compiled now, not in the first timed pass
+    clear();
     gl_.BeginQuery(GL_SAMPLES_PASSED, query_);
     draw();
     gl_.EndQuery(GL_SAMPLES_PASSED);
