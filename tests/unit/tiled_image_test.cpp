@@ -1,6 +1,7 @@
 // Does an image that is cleared by flags hold what an array of pixels holds, and touch no more than it must?
 #include "halfspace/units/tiled_image.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <utility>
 #include <vector>
@@ -195,5 +196,19 @@ TEST_CASE("tiled image: random writes, fills, copies and reads are those of an a
       }
     }
     REQUIRE(rows(image) == expected);
+  }
+}
+
+TEST_CASE("lazy arrays: of every size all values can be written, and those of zeros are zero") {
+  constexpr std::size_t kLargePage = std::size_t{1} << 21;
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{1}, kLargePage - 1, kLargePage, kLargePage + 1,
+                                  16 * kLargePage, 16 * kLargePage + 1}) {
+    CAPTURE(bytes);
+    const LazyArray<char> unset = unset_array<char>(bytes);
+    CHECK(reinterpret_cast<std::uintptr_t>(unset.get()) % 64 == 0);
+    std::fill_n(unset.get(), bytes, 'x');
+    CHECK(std::count(unset.get(), unset.get() + bytes, 'x') == static_cast<std::ptrdiff_t>(bytes));
+    const LazyArray<char> zeros = zeroed_array<char>(bytes);
+    CHECK(std::count(zeros.get(), zeros.get() + bytes, 0) == static_cast<std::ptrdiff_t>(bytes));
   }
 }

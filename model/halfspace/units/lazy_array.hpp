@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -10,8 +11,10 @@
 
 namespace halfspace {
 
+/// Frees the memory that an array is in.
 struct FreeMemory {
-  void operator()(void* memory) const { std::free(memory); }
+  void* memory = nullptr;
+  void operator()(const void* /*array*/) const { std::free(memory); }
 };
 
 template <class Value>
@@ -19,13 +22,29 @@ using LazyArray = std::unique_ptr<Value[], FreeMemory>;
 
 namespace detail {
 
+/// Memory, or null, with room for an array from its first multiple of `alignment` on.
+struct Reserved {
+  void* memory;
+  std::size_t alignment;
+};
+
+inline void* first_multiple(void* memory, std::size_t alignment) {
+  const std::size_t past = reinterpret_cast<std::uintptr_t>(memory) % alignment;
+  return static_cast<char*>(memory) + (past == 0 ? 0 : alignment - past);
+}
+
+/// Asks for large pages where the array is one or more of them, and not so large that their unused rest
+/// would matter.
+Reserved reserve(std::size_t bytes);
+
+/// The array in `memory`, from its first multiple of `alignment` on.
 template <class Value>
-LazyArray<Value> owned(void* memory) {
+LazyArray<Value> array_in(void* memory, std::size_t alignment) {
   static_assert(std::is_trivially_copyable_v<Value> && std::is_trivially_destructible_v<Value>);
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
-  return LazyArray<Value>(static_cast<Value*>(memory));
+  return {static_cast<Value*>(first_multiple(memory, alignment)), FreeMemory{memory}};
 }
 
 }  // namespace detail
@@ -33,15 +52,14 @@ LazyArray<Value> owned(void* memory) {
 /// `count` values of zero bytes. Memory that the process used before is cleared for them.
 template <class Value>
 LazyArray<Value> zeroed_array(std::size_t count) {
-  return detail::owned<Value>(std::calloc(count == 0 ? 1 : count, sizeof(Value)));
+  return detail::array_in<Value>(std::calloc(count == 0 ? 1 : count, sizeof(Value)), alignof(Value));
 }
 
 /// `count` values that must be written before they are read, from the begin of a cache line on.
 template <class Value>
 LazyArray<Value> unset_array(std::size_t count) {
-  constexpr std::size_t kCacheLine = 64;
-  const std::size_t lines = count * sizeof(Value) / kCacheLine + 1;
-  return detail::owned<Value>(std::aligned_alloc(kCacheLine, lines * kCacheLine));
+  const detail::Reserved reserved = detail::reserve(count * sizeof(Value));
+  return detail::array_in<Value>(reserved.memory, reserved.alignment);
 }
 
 }  // namespace halfspace
