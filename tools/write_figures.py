@@ -112,6 +112,11 @@ def bench_stages(tools):
     return f"    {command}\n\n{processor()}; {method}.\n\n{rows}"
 
 
+def bench_surfaces(tools):
+    method, rows = output(tools.program, "bench", "surfaces").split("\n\n", 1)
+    return f"{processor()}; {method}.\n\n{rows}"
+
+
 def reference(tools):
     """Counts of the reference, a row for each depth surface with both ways to take late draws."""
     columns = ["triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)"]
@@ -160,9 +165,10 @@ FIGURES = {
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),
     "bench-stages": ("docs/guides/speed.md", bench_stages),
+    "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
 }
-# The others need the RTL or minutes: `make bench-error`, `make depth-error`, `make bench-speed bench-stages`.
-SLOW = ("depth-error", "bench-error", "bench-speed", "bench-stages")
+# The others need the RTL or minutes: `make bench-error`, `make depth-error`, `make bench-speed bench-stages bench-surfaces`.
+SLOW = ("depth-error", "bench-error", "bench-speed", "bench-stages", "bench-surfaces")
 ALL = [name for name in FIGURES if name not in SLOW]
 
 
@@ -171,7 +177,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last four)")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last five)")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")

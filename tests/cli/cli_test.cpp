@@ -200,7 +200,8 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
 
 TEST_CASE("help is there for every command, and info and config say what they should") {
   const Place place;
-  for (const char* command : {"", "run", "info", "config", "diff", "bench", "bench speed", "bench stages"}) {
+  for (const char* command :
+       {"", "run", "info", "config", "diff", "bench", "bench speed", "bench stages", "bench surfaces"}) {
     const Outcome outcome = place.run(std::string(command) + " --help");
     CHECK(outcome.status == 0);
     CHECK(outcome.out.find("Usage") != std::string::npos);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "halfspace/numerics/error.hpp"
 
 namespace halfspace::c_api {
@@ -63,12 +65,14 @@ void DepthSurfaces::clear(std::uint32_t first_tile, std::uint32_t code) {
       code);
 }
 
-std::uint32_t DepthSurfaces::read(std::uint32_t first_tile, int x, int y) { return pixel(first_tile, x, y); }
+std::uint32_t DepthSurfaces::read(std::uint32_t first_tile, int x, int y) {
+  return std::as_const(with_pixel(first_tile, x, y).codes).at(x, y);
+}
 
 void DepthSurfaces::write(std::uint32_t first_tile, int x, int y, std::uint32_t code) {
-  std::uint32_t& stored = pixel(first_tile, x, y);
-  check_code(at(first_tile, "first_tile").format, code);
-  stored = code;
+  DepthSurface& surface = with_pixel(first_tile, x, y);
+  check_code(surface.format, code);
+  surface.codes.at(x, y) = code;
 }
 
 DepthSurface& DepthSurfaces::of_draw(const DrawStatePacket& draw) {
@@ -98,14 +102,14 @@ DepthSurface& DepthSurfaces::at(std::uint32_t first_tile, const char* what) {
   return found->second;
 }
 
-std::uint32_t& DepthSurfaces::pixel(std::uint32_t first_tile, int x, int y) {
+DepthSurface& DepthSurfaces::with_pixel(std::uint32_t first_tile, int x, int y) {
   DepthSurface& surface = at(first_tile, "first_tile");
   const int width = surface.codes.width();
   const int height = surface.codes.height();
   if (x < 0 || x >= width || y < 0 || y >= height) {
     throw InputError(fmt::format("pixel ({}, {}); legal: (0, 0) to ({}, {})", x, y, width - 1, height - 1));
   }
-  return surface.codes.at(x, y);
+  return surface;
 }
 
 }  // namespace halfspace::c_api

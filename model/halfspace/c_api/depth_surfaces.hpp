@@ -30,7 +30,7 @@ class DepthSurfaces {
 
  private:
   [[nodiscard]] DepthSurface& at(std::uint32_t first_tile, const char* what);
-  [[nodiscard]] std::uint32_t& pixel(std::uint32_t first_tile, int x, int y);
+  [[nodiscard]] DepthSurface& with_pixel(std::uint32_t first_tile, int x, int y);
 
   std::map<std::uint32_t, DepthSurface> surfaces_;
 };

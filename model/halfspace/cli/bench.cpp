@@ -12,6 +12,7 @@ void add_bench_command(CLI::App& app, int& status) {
   bench->require_subcommand(1);
   add_bench_speed(*bench);
   add_bench_stages(*bench);
+  add_bench_surfaces(*bench);
   add_bench_time(*bench);
   add_bench_analytic(*bench);
   add_bench_rtl(*bench);

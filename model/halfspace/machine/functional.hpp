@@ -8,7 +8,8 @@
 namespace halfspace {
 
 /// Runs `frame`, which must be valid (scene/validate.hpp), on the machine of `config`, which must be valid
-/// too. Memory: 8 bytes a pixel of all depth surfaces.
+/// too. Memory: 8 bytes a pixel of all depth surfaces at most; pages of it in which no draw touches a tile
+/// are reserved only.
 FrameResult run_functional(const Frame& frame, const Config& config, const Watch& watch = {});
 
 }  // namespace halfspace

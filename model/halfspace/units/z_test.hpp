@@ -2,6 +2,7 @@
 /// against the surface and writes it; and what the lines of the z cache hold, which move here.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -76,9 +77,7 @@ class ZLines {
 
   /// Marks the lines `first` to `last` of memory cleared, and drops them from the cache, dirty or not.
   void clear(std::uint32_t first, std::uint32_t last) {
-    for (std::uint32_t line = first; line <= last; ++line) {
-      cleared_[line] = true;
-    }
+    std::fill(cleared_.begin() + first, cleared_.begin() + last + 1, true);  // by words
     for (Victim& slot : slots_) {
       if (slot.line >= first && slot.line <= last) {
         slot = {};

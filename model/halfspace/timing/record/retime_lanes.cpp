@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
 #include <new>
 #include <vector>
 
@@ -98,16 +99,19 @@ Lanes gather(std::span<const Config> configs, const Get& get) {
   return Lanes(values.data());
 }
 
-/// Rows of one number a lane. Memory is plain numbers: code of the standard library, which is not compiled
-/// for this processor, must not move vectors.
+void* zeroed_bytes(void* /*opaque*/, std::size_t bytes) { return std::calloc(bytes, 1); }
+
+/// Rows of one number a lane, 0 at first; as LazyArray, rows that are not used take no memory. Memory is
+/// plain numbers: code of the standard library, which is not compiled for this processor, must not move
+/// vectors.
 class LaneTable {
  public:
   explicit LaneTable(std::size_t rows = 0)
-      : cycles_(hwy::AllocateAligned<std::uint32_t>(std::max<std::size_t>(rows, 1) * detail::kLanes)) {
+      : cycles_(hwy::AllocateAligned<std::uint32_t>(std::max<std::size_t>(rows, 1) * detail::kLanes,
+                                                    &zeroed_bytes, nullptr, nullptr)) {
     if (cycles_ == nullptr) {
       throw std::bad_alloc();
     }
-    std::fill_n(cycles_.get(), rows * detail::kLanes, 0);
   }
   [[nodiscard]] HWY_INLINE Lanes get(std::size_t row) const {
     return Lanes(cycles_.get() + row * detail::kLanes);

@@ -11,6 +11,7 @@
 #include "halfspace/config/config.hpp"
 #include "halfspace/machine/shape.hpp"
 #include "halfspace/timing/contract.hpp"
+#include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/z_cache.hpp"
 
 namespace halfspace {
@@ -98,12 +99,12 @@ inline std::array<Credits, kFifos> make_credits(const Config& config) {
 /// A time a row, 0 at first.
 class TimeTable {
  public:
-  explicit TimeTable(std::uint32_t rows = 0) : times_(rows) {}
+  explicit TimeTable(std::uint32_t rows = 0) : times_(zeroed_array<std::uint64_t>(rows)) {}
   [[nodiscard]] std::uint64_t get(std::uint32_t row) const { return times_[row]; }
   void set(std::uint32_t row, std::uint64_t time) { times_[row] = time; }
 
  private:
-  std::vector<std::uint64_t> times_;
+  LazyArray<std::uint64_t> times_;
 };
 
 /// The recurrence of a single machine.
