@@ -43,8 +43,8 @@ std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const
       kMostCredits;
   PacketTimes times;
   CycleProbe<false> probe(capacities(config), &times, nullptr);
-  RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core(machine(config), make_credits(config),
-                                                               NoStalls{}, probe);
+  RecurrenceMemory<OneMachine> memory = recurrence_memory(config, 0);
+  RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core(memory, NoStalls{}, probe);
   std::vector<std::uint32_t> words(InputWords(walker.widths()).triangle);
   for (const SetupTriangle& triangle : triangles) {
     pack(to_packet(triangle, walker.walker(), walker.tile_size), walker.widths(), words);

@@ -17,9 +17,9 @@ class Rig {
  public:
   explicit Rig(const Config& config)
       : probe_(capacities(config), &times, nullptr),
-        core_(machine(config), make_credits(config), NoStalls{}, probe_),
+        memory_(recurrence_memory(config, 1000)),
+        core_(memory_, NoStalls{}, probe_),
         lines_(static_cast<std::uint32_t>(config.z_cache.lines)) {
-    core_.start(1000);
     probe_.draw(0);
   }
 
@@ -49,6 +49,7 @@ class Rig {
 
  private:
   CycleProbe<false> probe_;
+  RecurrenceMemory<OneMachine> memory_;
   RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core_;
   std::uint32_t lines_;
 };

@@ -10,6 +10,7 @@
 #include "../frames.hpp"
 #include "../property/random.hpp"
 #include "halfspace/config/config.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace::testing {
@@ -71,6 +72,28 @@ inline Config random_config(Random& random) {
   config.memory.read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
   config.memory.write_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
   return config;
+}
+
+/// A random machine for the packets of `recorded`.
+inline Config random_timing(Random& random, const Config& recorded) {
+  while (true) {
+    Config config = random_config(random);
+    config.raster.sub_pixel_bits = recorded.raster.sub_pixel_bits;
+    config.tile_walker.tile_size = recorded.tile_walker.tile_size;
+    config.tile_walker.block_size = recorded.tile_walker.block_size;
+    config.tile_walker.block_level = recorded.tile_walker.block_level;
+    config.tile_walker.trivial_reject = recorded.tile_walker.trivial_reject;
+    config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
+    config.depth.interpolator = recorded.depth.interpolator;
+    config.late_z = recorded.late_z;
+    config.z_cache.fast_clear = recorded.z_cache.fast_clear;
+    try {
+      validate(config);
+      return config;
+    } catch (const InputError&) {
+      // widths and parts of another tile size: draw again
+    }
+  }
 }
 
 /// The keys in which `config` is not the default, one a line.

@@ -28,28 +28,6 @@ RetimedFrame full_run(const Frame& frame, const Config& config) {
   return result;
 }
 
-/// A random machine for the packets of `recorded`.
-Config random_timing(Random& random, const Config& recorded) {
-  while (true) {
-    Config config = random_config(random);
-    config.raster.sub_pixel_bits = recorded.raster.sub_pixel_bits;
-    config.tile_walker.tile_size = recorded.tile_walker.tile_size;
-    config.tile_walker.block_size = recorded.tile_walker.block_size;
-    config.tile_walker.block_level = recorded.tile_walker.block_level;
-    config.tile_walker.trivial_reject = recorded.tile_walker.trivial_reject;
-    config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
-    config.depth.interpolator = recorded.depth.interpolator;
-    config.late_z = recorded.late_z;
-    config.z_cache.fast_clear = recorded.z_cache.fast_clear;
-    try {
-      validate(config);
-      return config;
-    } catch (const InputError&) {
-      // widths and parts of another tile size: draw again
-    }
-  }
-}
-
 struct TemporaryFile {
   TemporaryFile()
       : path(std::filesystem::temp_directory_path() / ("halfspace_" + std::to_string(getpid()) + ".rec")) {}
@@ -108,14 +86,14 @@ TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds
     FrameWork work;
     work.add(whole_stream(record, trace), record.surfaces);
     work.flush = trace.flush;
-    const std::uint64_t bound = detail::longest_time(work, config);
+    const std::uint64_t bound = detail::longest_time(work, work.sum(), config);
     CHECK(full_run(frame, config).cycles <= bound);
   }
   // 2^16 fetches of 2^16 cycles each: only the bound is looked at
   FrameWork work;
   work.draws.emplace_back();
   work.draws[0].fetched[8] = 1 << 16;
-  CHECK(detail::longest_time(work, config) > (std::uint64_t{1} << 32));
+  CHECK(detail::longest_time(work, work.sum(), config) > (std::uint64_t{1} << 32));
 }
 
 TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]") {

@@ -184,6 +184,11 @@ Widths widths(const Config& config) {
   // clang-format on
 }
 
+bool same_packets(const Config& a, const Config& b) {
+  return std::ranges::all_of(
+      keys(), [&](const Key& key) { return key.changes == Changes::time || key.get(a) == key.get(b); });
+}
+
 std::vector<ConfigKey> config_keys(const Config& config) {
   std::vector<ConfigKey> list;
   for (const Key& key : keys()) {

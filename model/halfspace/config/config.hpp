@@ -50,6 +50,9 @@ struct ConfigKey {
 /// Every key in the order of the reference, with its value in `config`.
 std::vector<ConfigKey> config_keys(const Config& config);
 
+/// Whether both differ in keys of time only: then the same packets pass through both machines.
+[[nodiscard]] bool same_packets(const Config& a, const Config& b);
+
 /// Sets `key` from text. Throws InputError for an unknown key, with the new name of one that was renamed, or
 /// an illegal value.
 void set_config(Config& config, std::string_view key, std::string_view value);

@@ -19,6 +19,14 @@ DrawWork& DrawWork::operator+=(const DrawWork& other) {
   return *this;
 }
 
+DrawWork FrameWork::sum() const {
+  DrawWork sum = drawn_clears;
+  for (const DrawWork& draw : draws) {
+    sum += draw;
+  }
+  return sum;
+}
+
 void FrameWork::add(const StreamView& part, std::span<const StreamSurface> surfaces) {
   const StreamTriangle* triangle = part.triangles.data();
   const StreamJob* job = part.jobs.data();

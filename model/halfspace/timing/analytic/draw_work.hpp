@@ -28,6 +28,8 @@ struct FrameWork {
   std::vector<std::uint32_t> fast_clears;  ///< tiles of each
   std::vector<ZFlush> flush;
 
+  /// Of all draws and drawn clears.
+  [[nodiscard]] DrawWork sum() const;
   /// Adds a part of a stream; parts come in order.
   void add(const StreamView& part, std::span<const StreamSurface> surfaces);
 };

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -28,12 +32,11 @@ struct DrawEnds : ReplayHooks {
 /// On the machine whose z cache is that of `trace`.
 RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Config& config) {
   NoProbe probe;
-  RecurrenceCore<OneMachine, NoStalls, NoProbe> core(machine(config), make_credits(config), NoStalls{},
-                                                     probe);
+  RecurrenceMemory<OneMachine> memory = recurrence_memory(config, trace.rows);
+  RecurrenceCore<OneMachine, NoStalls, NoProbe> core(memory, NoStalls{}, probe);
   RetimedFrame result;
   DrawEnds hooks{{}, core, result.draw_end};
   bool bursts = false;
-  core.start(trace.memory_lines);
   replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
     return static_cast<std::uint64_t>(fast_clear_cycles(record.surfaces[surface].tiles, config));
   });
@@ -44,6 +47,9 @@ RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Co
 }  // namespace
 
 void check_retimable(const FrameRecord& record, const Config& config) {
+  if (same_packets(record.config, config)) {
+    return;
+  }
   const std::vector<ConfigKey> recorded = config_keys(record.config);
   const std::vector<ConfigKey> wanted = config_keys(config);
   for (std::size_t i = 0; i < recorded.size(); ++i) {
@@ -56,7 +62,15 @@ void check_retimable(const FrameRecord& record, const Config& config) {
   }
 }
 
-Retimer::Retimer(FrameRecord record) : record_(std::move(record)) { traced(z_cache_shape(record_.config)); }
+Retimer::Retimer(FrameRecord record) : record_(std::move(record)) {
+  for (const StreamJob& job : record_.packets.jobs) {
+    most_steps_ = std::max(most_steps_, job.steps());
+  }
+  for (const StreamTriangle& triangle : record_.packets.triangles) {
+    most_steps_ = std::max(most_steps_, triangle.steps_after);
+  }
+  traced(z_cache_shape(record_.config));
+}
 
 const Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
   for (const Traced& known : traced_) {
@@ -68,7 +82,8 @@ const Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
   FrameWork work;
   work.add(whole_stream(record_, trace), record_.surfaces);
   work.flush = trace.flush;
-  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = std::move(work)});
+  DrawWork sum = work.sum();
+  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = std::move(work), .sum = sum});
   return traced_.back();
 }
 
@@ -82,6 +97,34 @@ AnalyticFrame Retimer::analytic(const Config& config) {
   return analytic_frame(traced(z_cache_shape(config)).work, config);
 }
 
+void Retimer::retime_group(const Traced& known, std::span<const Config> configs,
+                           std::span<const std::size_t> group, std::span<RetimedFrame> results) const {
+  struct Place {
+    bool slow;
+    std::array<int, kFifos> capacity;
+    std::size_t i;
+  };
+  std::vector<Place> places;
+  places.reserve(group.size());
+  for (const std::size_t i : group) {
+    const bool slow = detail::longest_job(configs[i], most_steps_) > detail::kNarrowRoom;
+    places.push_back({.slow = slow, .capacity = capacities(configs[i]), .i = i});
+  }
+  // a pass is as wide as its slowest machine needs, and costs less where capacities are the same
+  std::ranges::sort(places, {},
+                    [](const Place& place) { return std::tie(place.slow, place.capacity, place.i); });
+  std::vector<Config> machines;
+  machines.reserve(places.size());
+  for (const Place& place : places) {
+    machines.push_back(configs[place.i]);
+  }
+  std::vector<RetimedFrame> retimed(places.size());
+  detail::retime_lanes(record_, known.trace, machines, most_steps_, retimed.data());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    results[places[k].i] = std::move(retimed[k]);
+  }
+}
+
 std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
   for (const Config& config : configs) {
     check_retimable(record_, config);
@@ -93,49 +136,41 @@ std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
       continue;
     }
     const Traced& known = traced(z_cache_shape(configs[first]));
-    std::vector<std::size_t> group;  // positions of what goes through in one pass
-    const auto pass = [&] {
-      std::vector<Config> machines;
-      machines.reserve(group.size());
-      for (const std::size_t i : group) {
-        machines.push_back(configs[i]);
-      }
-      std::vector<RetimedFrame> retimed(group.size());
-      detail::retime_lanes(record_, known.trace, machines, retimed.data());
-      for (std::size_t k = 0; k < group.size(); ++k) {
-        results[group[k]] = std::move(retimed[k]);
-      }
-      group.clear();
-    };
+    std::vector<std::size_t> group;  // positions of what shares its z cache
     for (std::size_t i = first; i < configs.size(); ++i) {
       if (done[i] || z_cache_shape(configs[i]) != known.shape) {
         continue;
       }
       done[i] = true;
-      if (detail::longest_time(known.work, configs[i]) > std::numeric_limits<std::uint32_t>::max()) {
+      if (detail::longest_time(known.work, known.sum, configs[i]) >
+          std::numeric_limits<std::uint32_t>::max()) {
         results[i] = retime_one(record_, known.trace, configs[i]);  // needs 64 bits
-        continue;
-      }
-      group.push_back(i);
-      if (group.size() == detail::kLanes) {
-        pass();
+      } else {
+        group.push_back(i);
       }
     }
-    if (!group.empty()) {
-      pass();
-    }
+    retime_group(known, configs, group, results);
   }
   return results;
 }
 
 namespace detail {
 
-std::uint64_t longest_time(const FrameWork& work, const Config& config) {
+std::uint64_t longest_job(const Config& config, std::uint32_t most_steps) {
   const Machine<std::uint64_t> m = machine(config);
-  DrawWork sum = work.drawn_clears;
-  for (const DrawWork& draw : work.draws) {
-    sum += draw;
-  }
+  const int tile = config.tile_walker.tile_size;
+  const auto line = static_cast<std::size_t>(
+      std::countr_zero(static_cast<unsigned>(tile * tile * 4 / config.z_cache.parts)));
+  const auto quads = static_cast<std::size_t>(tile * tile / 4);
+  const auto parts = static_cast<std::uint64_t>(config.z_cache.parts);
+  // up to two walks, the job's own and that after the last job before
+  return 2 * std::uint64_t{most_steps} * m.step_interval +
+         static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 + m.quad_beats[quads] +
+         m.test_beats[quads] + parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + 8);
+}
+
+std::uint64_t longest_time(const FrameWork& work, const DrawWork& sum, const Config& config) {
+  const Machine<std::uint64_t> m = machine(config);
   std::uint64_t time = static_cast<std::uint64_t>(config.z_cache.lines) + 64;
   for (const std::uint32_t tiles : work.fast_clears) {
     time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));

@@ -35,7 +35,7 @@ class Retimer {
   /// Exactly the cycles of run_recurrence on `config`, which must be valid. Throws as check_retimable.
   RetimedFrame retime(const Config& config);
 
-  /// The same for many machines: those with the same z cache share a pass, a SIMD lane each.
+  /// The same for many machines: those with the same z cache share passes, a SIMD lane each.
   std::vector<RetimedFrame> retime(std::span<const Config> configs);
 
   /// The analytic fidelity on `config`. Throws as check_retimable.
@@ -46,24 +46,35 @@ class Retimer {
     ZCacheShape shape;
     ZTrace trace;
     FrameWork work;
+    DrawWork sum;  ///< of all draws and drawn clears
   };
   const Traced& traced(const ZCacheShape& shape);
+  /// Those of `configs` whose positions are in `group`: all have the z cache of `known`.
+  void retime_group(const Traced& known, std::span<const Config> configs, std::span<const std::size_t> group,
+                    std::span<RetimedFrame> results) const;
 
   FrameRecord record_;
-  std::list<Traced> traced_;  ///< a list: references stay valid
+  std::uint32_t most_steps_ = 0;  ///< see detail::retime_lanes
+  std::list<Traced> traced_;      ///< a list: references stay valid
 };
 
 namespace detail {
 
-/// Machines in one pass.
-inline constexpr std::size_t kLanes = 16;
-
-/// At most kLanes machines whose z cache is that of `trace`. No time may reach 2^32 (see longest_time).
+/// Machines whose z cache is that of `trace`, in lanes of 16 bits where they have room, else of 32. No time
+/// may reach 2^32 (see longest_time). `most_steps`: of the walker from one job to the next, or after the last
+/// of a triangle.
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  RetimedFrame* results);
+                  std::uint32_t most_steps, RetimedFrame* results);
+
+/// Lanes of 16 bits have room for so many cycles twice: before times are looked after, and until then.
+inline constexpr std::uint64_t kNarrowRoom = 0x7FFF;
+
+/// A bound on the cycles by which the latest time behind setup grows from one job to the next.
+std::uint64_t longest_job(const Config& config, std::uint32_t most_steps);
 
 /// A bound on the cycles of a frame: no packet overlaps with another.
-std::uint64_t longest_time(const FrameWork& work, const Config& config);
+/// `sum` is that of all draws and drawn clears of `work`.
+std::uint64_t longest_time(const FrameWork& work, const DrawWork& sum, const Config& config);
 
 }  // namespace detail
 }  // namespace halfspace

@@ -4,15 +4,14 @@
 // after foreach_target, as Highway asks
 #include <hwy/highway.h>
 
-#include <hwy/aligned_allocator.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdlib>
-#include <new>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
+#include "halfspace/timing/record/lanes-inl.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/replay-inl.hpp"
 
@@ -20,246 +19,266 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-struct alignas(64) LaneNumbers : std::array<std::uint32_t, detail::kLanes> {};
-using Tag = hn::CappedTag<std::uint32_t, detail::kLanes>;
-using Vector = hn::Vec<Tag>;
-constexpr std::size_t kVectors = detail::kLanes / hn::MaxLanes(Tag());
-
-/// A time on each of kLanes machines.
-class Lanes {
+/// The machines of a core, a lane each.
+template <class Policy>
+class LaneMachines {
  public:
-  Lanes() : Lanes(std::uint32_t{0}) {}
-  HWY_INLINE explicit Lanes(std::uint32_t cycles) {
-    for (Vector& vector : v_) {
-      vector = hn::Set(Tag(), cycles);
+  using Memory = RecurrenceMemory<Policy>;
+  static constexpr std::size_t kMachines = Policy::Time::kMachines;
+  using Numbers = MachineNumbers<kMachines>;
+
+  explicit LaneMachines(std::span<const Config> configs) : configs_(configs) {}
+
+  /// get(config) of each machine; lanes beyond repeat the first.
+  template <class Get>
+  [[nodiscard]] Numbers of_each(const Get& get) const {
+    Numbers values{};
+    for (std::size_t i = 0; i < kMachines; ++i) {
+      values[i] = static_cast<std::uint32_t>(get(configs_[i < configs_.size() ? i : 0]));
     }
-  }
-  /// kLanes numbers, aligned to their own size.
-  HWY_INLINE explicit Lanes(const std::uint32_t* cycles) {
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      v_[i] = hn::Load(Tag(), cycles + i * hn::Lanes(Tag()));
-    }
-  }
-  HWY_INLINE void store(std::uint32_t* cycles) const {
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      hn::Store(v_[i], Tag(), cycles + i * hn::Lanes(Tag()));
-    }
+    return values;
   }
 
-  friend HWY_INLINE Lanes operator+(const Lanes& a, const Lanes& b) {
-    Lanes result = a;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = hn::Add(a.v_[i], b.v_[i]);
+  /// For packets that ask for `rows` of the table of times.
+  void set_up(Memory& memory, std::uint32_t rows) const {
+    for (std::size_t i = 0; i < kFifos; ++i) {
+      const Numbers capacity = of_each([i](const Config& config) { return capacities(config)[i]; });
+      if (i < kSetupFifos) {
+        memory.setup_fifos[i].set_up(capacity);
+      } else {
+        memory.fifos[i - kSetupFifos].set_up(capacity);
+      }
     }
-    return result;
-  }
-  friend HWY_INLINE Lanes operator&(const Lanes& a, const Lanes& b) {
-    Lanes result = a;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = hn::And(a.v_[i], b.v_[i]);
+    memory.out = typename Policy::Table(rows);
+    std::vector<Machine<std::uint64_t>> machines;
+    for (std::size_t i = 0; i < kMachines; ++i) {
+      machines.push_back(machine(configs_[i < configs_.size() ? i : 0]));
     }
-    return result;
-  }
-  friend HWY_INLINE Lanes operator|(const Lanes& a, const Lanes& b) {
-    Lanes result = a;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = hn::Or(a.v_[i], b.v_[i]);
+    const auto fill = [&machines](auto& lanes, const auto& get) {
+      Numbers values{};
+      std::transform(machines.begin(), machines.end(), values.begin(),
+                     [&](const auto& m) { return static_cast<std::uint32_t>(get(m)); });
+      lanes = std::remove_reference_t<decltype(lanes)>::of(values);
+    };
+    auto& all = memory.machine;
+    for (std::size_t i = 0; i <= kMostQuads; ++i) {
+      fill(all.quad_beats[i], [i](const auto& m) { return m.quad_beats[i]; });
+      fill(all.test_beats[i], [i](const auto& m) { return m.test_beats[i]; });
     }
-    return result;
-  }
-  friend HWY_INLINE Lanes later(const Lanes& a, const Lanes& b) {
-    Lanes result = a;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = hn::Max(a.v_[i], b.v_[i]);
+    for (std::size_t i = 0; i <= kMostLineBytesLog2; ++i) {
+      fill(all.read_cycles[i], [i](const auto& m) { return m.read_cycles[i]; });
+      fill(all.write_cycles[i], [i](const auto& m) { return m.write_cycles[i]; });
     }
-    return result;
-  }
-  friend HWY_INLINE Lanes operator+(const Lanes& a, std::uint32_t cycles) { return a + Lanes(cycles); }
-  friend HWY_INLINE Lanes operator*(const Lanes& a, std::uint32_t times) {
-    Lanes result = a;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      result.v_[i] = hn::Mul(a.v_[i], hn::Set(Tag(), times));
-    }
-    return result;
+    fill(all.setup_interval, [](const auto& m) { return m.setup_interval; });
+    fill(all.setup_latency, [](const auto& m) { return m.setup_latency; });
+    fill(all.step_interval, [](const auto& m) { return m.step_interval; });
+    fill(all.edge_latency, [](const auto& m) { return m.edge_latency; });
+    fill(all.lookup_latency, [](const auto& m) { return m.lookup_latency; });
+    fill(all.memory_latency, [](const auto& m) { return m.memory_latency; });
   }
 
  private:
-  Vector v_[kVectors];
+  std::span<const Config> configs_;
 };
 
-/// A number of every machine.
-template <class Get>
-Lanes gather(std::span<const Config> configs, const Get& get) {
-  LaneNumbers values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {  // unused lanes repeat the first machine
-    values[i] = static_cast<std::uint32_t>(get(configs[i < configs.size() ? i : 0]));
-  }
-  return Lanes(values.data());
-}
-
-void* zeroed_bytes(void* /*opaque*/, std::size_t bytes) { return std::calloc(bytes, 1); }
-
-/// Rows of one number a lane, 0 at first; as LazyArray, rows that are not used take no memory. Memory is
-/// plain numbers: code of the standard library, which is not compiled for this processor, must not move
-/// vectors.
-class LaneTable {
+/// kCount cores, through which every packet goes. They are members of their own, not an array, and calls are
+/// written out, so that all is inlined and the compiler keeps their times in registers.
+template <class Policy, std::size_t kCount>
+class Cores {
  public:
-  explicit LaneTable(std::size_t rows = 0)
-      : cycles_(hwy::AllocateAligned<std::uint32_t>(std::max<std::size_t>(rows, 1) * detail::kLanes,
-                                                    &zeroed_bytes, nullptr, nullptr)) {
-    if (cycles_ == nullptr) {
-      throw std::bad_alloc();
-    }
+  HWY_INLINE Cores(RecurrenceMemory<Policy>* memory, NoProbe& probe)
+      : first_(memory[0], NoStalls{}, probe), rest_(memory + 1, probe) {}
+
+  HWY_INLINE void dropped() {
+    first_.dropped();
+    rest_.dropped();
   }
-  [[nodiscard]] HWY_INLINE Lanes get(std::size_t row) const {
-    return Lanes(cycles_.get() + row * detail::kLanes);
+  HWY_INLINE void drawn() {
+    first_.drawn();
+    rest_.drawn();
   }
-  HWY_INLINE void set(std::size_t row, const Lanes& cycles) {
-    cycles.store(cycles_.get() + row * detail::kLanes);
+  HWY_INLINE void job(const JobWork& work) {
+    first_.job(work);
+    rest_.job(work);
+  }
+  HWY_INLINE void walked(std::uint32_t steps) {
+    first_.walked(steps);
+    rest_.walked(steps);
+  }
+  HWY_INLINE void keep_near() {
+    first_.keep_near();
+    rest_.keep_near();
+  }
+  /// act(core, its number), for what is rare.
+  template <class Act>
+  void each(const Act& act, std::size_t number = 0) {
+    act(first_, number);
+    rest_.each(act, number + 1);
   }
 
  private:
-  hwy::AlignedFreeUniquePtr<std::uint32_t[]> cycles_;
+  RecurrenceCore<Policy, NoStalls, NoProbe> first_;
+  Cores<Policy, kCount - 1> rest_;
 };
 
-/// As Credits, where each lane has a capacity of its own. A set of machines has few different ones: each is a
-/// load and a mask.
-class LaneCredits {
+template <class Policy>
+class Cores<Policy, 0> {
  public:
-  LaneCredits() = default;
-  explicit LaneCredits(const LaneNumbers& capacity) {
-    std::size_t most = 1;
-    for (const std::uint32_t c : capacity) {
-      most = std::max<std::size_t>(most, c);
-      if (std::find(capacities_.begin(), capacities_.end(), c) == capacities_.end()) {
-        capacities_.push_back(c);
-      }
-    }
-    masks_ = LaneTable(capacities_.size());
-    for (std::size_t i = 0; i < capacities_.size(); ++i) {
-      LaneNumbers mask{};
-      for (std::size_t lane = 0; lane < mask.size(); ++lane) {
-        mask[lane] = capacity[lane] == capacities_[i] ? 0xFFFFFFFFu : 0;
-      }
-      masks_.set(i, Lanes(mask.data()));
-    }
-    usable_ = LaneTable(std::bit_ceil(most));
-    wrap_ = std::bit_ceil(most) - 1;
-  }
+  HWY_INLINE Cores(RecurrenceMemory<Policy>* /*memory*/, NoProbe& /*probe*/) {}
+  HWY_INLINE void dropped() {}
+  HWY_INLINE void drawn() {}
+  HWY_INLINE void job(const JobWork& /*work*/) {}
+  HWY_INLINE void walked(std::uint32_t /*steps*/) {}
+  HWY_INLINE void keep_near() {}
+  template <class Act>
+  void each(const Act& /*act*/, std::size_t /*number*/) {}
+};
 
-  [[nodiscard]] HWY_INLINE Lanes usable(std::size_t ahead = 0) const {
-    const std::size_t at = given_ + ahead;
-    Lanes result = usable_.get((at - capacities_[0]) & wrap_);
-    if (capacities_.size() > 1) {
-      result = result & masks_.get(0);
-      for (std::size_t i = 1; i < capacities_.size(); ++i) {
-        result = result | (usable_.get((at - capacities_[i]) & wrap_) & masks_.get(i));
+/// The machines of a pass. Every packet goes through all cores: the stream is read once, and one core works
+/// while another waits for its numbers.
+template <class Policy, std::size_t kCount>
+class Pass {
+ public:
+  using Core = RecurrenceCore<Policy, NoStalls, NoProbe>;
+  using Machines = LaneMachines<Policy>;
+
+  /// Times are looked after every `jobs` jobs.
+  HWY_INLINE Pass(const Machines* machines, RecurrenceMemory<Policy>* memory, std::uint32_t jobs,
+                  std::span<RetimedFrame> results, NoProbe& probe)
+      : machines_(machines), results_(results), jobs_(jobs), jobs_left_(jobs), cores_(memory, probe) {}
+
+  HWY_INLINE void dropped() { cores_.dropped(); }
+  HWY_INLINE void drawn() { cores_.drawn(); }
+  HWY_INLINE void job(const JobWork& work) {
+    cores_.job(work);
+    if constexpr (Policy::Clock::kMoves) {
+      if (HWY_UNLIKELY(--jobs_left_ == 0)) {
+        jobs_left_ = jobs_;
+        cores_.keep_near();
       }
     }
-    return result;
   }
-
-  HWY_INLINE void give(const Lanes& cycle) { usable_.set(given_++ & wrap_, cycle); }
+  HWY_INLINE void walked(std::uint32_t steps) { cores_.walked(steps); }
+  void fast_clear(std::uint32_t tiles) {
+    cores_.each([this, tiles](Core& core, std::size_t number) HWY_ATTR {
+      core.fast_clear(Policy::SetupTime::of(machines_[number].of_each(
+          [tiles](const Config& config) { return fast_clear_cycles(tiles, config); })));
+    });
+  }
+  /// The end of the frame, where each z cache has `lines`. False where the width was too small.
+  bool flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
+    bool good = true;
+    cores_.each([&](Core& core, std::size_t number) HWY_ATTR {
+      const auto cycles = core.flush(dirty, lines).numbers();
+      good = good && !core.lost();
+      const std::span<RetimedFrame> here = results_of(number);
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        here[i].cycles = cycles[i];
+      }
+    });
+    return good;
+  }
+  /// Notes the end of a draw; `bursts`: it had some.
+  void draw_end(bool bursts) {
+    cores_.each([&](Core& core, std::size_t number) HWY_ATTR {
+      const auto next = core.sink_next().numbers();
+      const std::span<RetimedFrame> here = results_of(number);
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        std::vector<std::uint64_t>& ends = here[i].draw_end;
+        const std::uint64_t before = ends.empty() ? 0 : ends.back();
+        ends.push_back(bursts ? next[i] - 1 : before);
+      }
+    });
+  }
 
  private:
-  std::vector<std::size_t> capacities_;  ///< without repetition
-  LaneTable masks_;                      ///< by the position of a capacity: which lanes have it
-  LaneTable usable_;
-  std::size_t wrap_ = 0;
-  std::size_t given_ = 0;
+  [[nodiscard]] std::span<RetimedFrame> results_of(std::size_t core) const {
+    const std::size_t first = core * Machines::kMachines;
+    return results_.subspan(first, std::min(Machines::kMachines, results_.size() - first));
+  }
+
+  const Machines* machines_;
+  std::span<RetimedFrame> results_;
+  std::uint32_t jobs_;
+  std::uint32_t jobs_left_;
+  Cores<Policy, kCount> cores_;
 };
 
-struct MachineLanes {
-  using Time = Lanes;
-  using Credits = LaneCredits;
-  using Table = LaneTable;
-};
-
-std::array<LaneCredits, kFifos> lane_credits(std::span<const Config> configs) {
-  std::array<LaneCredits, kFifos> credits;
-  for (std::size_t fifo = 0; fifo < kFifos; ++fifo) {
-    LaneNumbers capacity{};
-    for (std::size_t i = 0; i < capacity.size(); ++i) {
-      capacity[i] = static_cast<std::uint32_t>(capacities(configs[i < configs.size() ? i : 0])[fifo]);
-    }
-    credits[fifo] = LaneCredits(capacity);
-  }
-  return credits;
-}
-
-Machine<Lanes> lane_machine(std::span<const Config> configs) {
-  std::vector<Machine<std::uint64_t>> machines;
-  for (const Config& config : configs) {
-    machines.push_back(machine(config));
-  }
-  const auto lanes_of = [&](const auto& get) {
-    LaneNumbers values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = static_cast<std::uint32_t>(get(machines[i < machines.size() ? i : 0]));
-    }
-    return Lanes(values.data());
-  };
-  using One = Machine<std::uint64_t>;
-  Machine<Lanes> all;
-  for (std::size_t i = 0; i <= kMostQuads; ++i) {
-    all.quad_beats[i] = lanes_of([i](const One& m) { return m.quad_beats[i]; });
-    all.test_beats[i] = lanes_of([i](const One& m) { return m.test_beats[i]; });
-  }
-  for (std::size_t i = 0; i <= kMostLineBytesLog2; ++i) {
-    all.read_cycles[i] = lanes_of([i](const One& m) { return m.read_cycles[i]; });
-    all.write_cycles[i] = lanes_of([i](const One& m) { return m.write_cycles[i]; });
-  }
-  all.setup_interval = lanes_of([](const One& m) { return m.setup_interval; });
-  all.step_interval = lanes_of([](const One& m) { return m.step_interval; });
-  all.edge_latency = lanes_of([](const One& m) { return m.edge_latency; });
-  all.setup_latency = lanes_of([](const One& m) { return m.setup_latency; });
-  all.lookup_latency = lanes_of([](const One& m) { return m.lookup_latency; });
-  all.memory_latency = lanes_of([](const One& m) { return m.memory_latency; });
-  return all;
-}
-
-using Core = RecurrenceCore<MachineLanes, NoStalls, NoProbe>;
-
-/// Notes the end of every draw on every machine.
+template <class PassType>
 struct DrawEnds : ReplayHooks {
-  const Core& core;
-  std::span<RetimedFrame> results;
+  PassType& pass;
 
   void end_segment(const StreamSegment& segment, bool bursts) {
-    if (segment.kind != StreamSegment::Kind::kDraw) {
-      return;
-    }
-    LaneNumbers next{};
-    core.sink_next().store(next.data());
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      std::vector<std::uint64_t>& ends = results[i].draw_end;
-      const std::uint64_t before = ends.empty() ? 0 : ends.back();
-      ends.push_back(bursts ? next[i] - 1 : before);
+    if (segment.kind == StreamSegment::Kind::kDraw) {
+      pass.draw_end(bursts);
     }
   }
 };
+
+/// False where the width was too small; then `results` are wrong.
+template <class Policy, std::size_t kCount>
+bool retime_pass(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
+                 std::uint32_t jobs, std::span<RetimedFrame> results) {
+  using Machines = LaneMachines<Policy>;
+  std::vector<Machines> machines;
+  const auto memory = hwy::MakeUniqueAlignedArray<RecurrenceMemory<Policy>>(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t first = i * Machines::kMachines;
+    machines.emplace_back(configs.subspan(first, std::min(Machines::kMachines, configs.size() - first)));
+    machines[i].set_up(memory[i], trace.rows);
+  }
+  NoProbe probe;
+  Pass<Policy, kCount> pass(machines.data(), memory.get(), jobs, results, probe);
+  DrawEnds<Pass<Policy, kCount>> hooks{{}, pass};
+  bool bursts = false;
+  replay(whole_stream(record, trace), pass, hooks, bursts,
+         [&](std::uint32_t surface) { return record.surfaces[surface].tiles; });
+  // all share the shape of the z cache, so the number of its lines too
+  return pass.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_cache.lines));
+}
+
+/// As many of the machines as go into a pass; gives their number, 0 where the width was too small for them.
+template <class Policy>
+std::size_t retime_some(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
+                        std::uint32_t jobs, RetimedFrame* results) {
+  constexpr std::size_t kMachines = Policy::Time::kMachines;
+  const std::size_t count = std::min(configs.size(), 2 * kMachines);
+  for (std::size_t i = 0; i < count; ++i) {
+    results[i].draw_end.clear();
+    results[i].draw_end.reserve(record.packets.segments.size());
+  }
+  const auto pass = count > kMachines ? retime_pass<Policy, 2> : retime_pass<Policy, 1>;
+  return pass(record, trace, configs.first(count), jobs, {results, count}) ? count : 0;
+}
+
+#if HWY_TARGET != HWY_SCALAR
+/// In lanes of 16 bits as retime_some. 0 too where the machines are so slow that a job may not fit.
+std::size_t retime_narrow(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
+                          std::uint32_t most_steps, RetimedFrame* results) {
+  std::uint64_t growth = 1;
+  for (const Config& config : configs.first(std::min(configs.size(), 2 * NarrowLanes::Time::kMachines))) {
+    growth = std::max(growth, detail::longest_job(config, most_steps));
+  }
+  // times are near at first and may grow as far again until they are looked after
+  const auto jobs = static_cast<std::uint32_t>(detail::kNarrowRoom / growth);
+  return jobs == 0 ? 0 : retime_some<NarrowLanes>(record, trace, configs, jobs, results);
+}
+#endif
 
 }  // namespace
 
 void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  RetimedFrame* results) {
-  NoProbe probe;
-  Core core(lane_machine(configs), lane_credits(configs), NoStalls{}, probe);
-  DrawEnds hooks{{}, core, {results, configs.size()}};
-  bool bursts = false;
-  core.start(trace.memory_lines);
-  replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
-    return gather(configs, [&](const Config& config) {
-      return fast_clear_cycles(record.surfaces[surface].tiles, config);
-    });
-  });
-  // lanes share the shape of the z cache, so the number of its lines too
-  LaneNumbers cycles{};
-  core.flush(trace.flush, static_cast<std::uint32_t>(configs[0].z_cache.lines)).store(cycles.data());
-  for (std::size_t i = 0; i < configs.size(); ++i) {
-    results[i].cycles = cycles[i];
+                  [[maybe_unused]] std::uint32_t most_steps, RetimedFrame* results) {
+  while (!configs.empty()) {
+    std::size_t done = 0;
+#if HWY_TARGET != HWY_SCALAR
+    done = retime_narrow(record, trace, configs, most_steps, results);
+#endif
+    if (done == 0) {
+      done = retime_some<WideLanes>(record, trace, configs, 0, results);
+    }
+    configs = configs.subspan(done);
+    results += done;
   }
 }
 
@@ -272,8 +291,8 @@ namespace halfspace::detail {
 HWY_EXPORT(retime_group);
 
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  RetimedFrame* results) {
-  HWY_DYNAMIC_DISPATCH(retime_group)(record, trace, configs, results);
+                  std::uint32_t most_steps, RetimedFrame* results) {
+  HWY_DYNAMIC_DISPATCH(retime_group)(record, trace, configs, most_steps, results);
 }
 
 }  // namespace halfspace::detail

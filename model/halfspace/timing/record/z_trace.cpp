@@ -1,8 +1,10 @@
 #include "halfspace/timing/record/z_trace.hpp"
 
 #include <array>
+#include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
+#include "halfspace/timing/contract.hpp"
 
 namespace halfspace {
 namespace {
@@ -19,14 +21,81 @@ std::uint8_t fold(std::uint8_t bands, int band_count, int parts) {
   return folded;
 }
 
+/// An eviction of a line, as the next miss of the line sees it.
+struct Eviction {
+  std::uint32_t miss = kNoBurst;  ///< the miss that made it, in order
+  std::uint32_t writes = 0;       ///< to memory up to it, its own included
+};
+
+/// For each miss that may have to wait until its line has left, the miss that made it leave; kNoBurst for
+/// others. Most need not wait on any machine. Burst k is looked up when burst k - early_z.pending is through
+/// z_test, so what that one replaced has left the cache. And it was not through before the write buffer had a
+/// slot for each of its victims, so all dirty lines but the last z_cache.write_buffers had been written. No
+/// FIFO has more than kMostCredits.
+std::vector<std::uint32_t> waits(const ZMissStream& z, std::uint32_t memory_lines) {
+  std::vector<std::uint32_t> waits_for(z.misses.size(), kNoBurst);
+  std::vector<Eviction> evicted(memory_lines);
+  std::vector<std::uint32_t> writes(z.misses.size() + 1);  // of the misses before
+  std::uint32_t through = 0;  // misses of bursts that are through z_test when this one is looked up
+  for (std::uint32_t i = 0; i < z.misses.size(); ++i) {
+    const ZMiss& miss = z.misses[i];
+    while (z.burst[through] + kMostCredits <= z.burst[i]) {
+      ++through;
+    }
+    // once waited for, also where a clear drops the line and it is asked for again
+    const Eviction last = std::exchange(evicted[miss.line], {});
+    if (last.miss != kNoBurst) {
+      const bool gone = z.misses[last.miss].write_back ? last.writes + kMostCredits <= writes[through]
+                                                       : last.miss < through;
+      waits_for[i] = gone ? kNoBurst : last.miss;
+    }
+    writes[i + 1] = writes[i] + (miss.write_back ? 1 : 0);
+    if (miss.victim != kNoZLine) {
+      evicted[miss.victim] = {.miss = i, .writes = writes[i + 1]};
+    }
+  }
+  return waits_for;
+}
+
+/// Puts rows of a small table in the place of lines of memory: a time is noted only where it is asked for
+/// again, and a row serves another line after that. Row 0 is never written. Returns the number of rows.
+std::uint32_t replace_lines(ZMissStream& z, std::uint32_t memory_lines) {
+  const std::vector<std::uint32_t> waits_for = waits(z, memory_lines);
+  std::vector<bool> asked(z.misses.size(), false);
+  for (const std::uint32_t miss : waits_for) {
+    if (miss != kNoBurst) {
+      asked[miss] = true;
+    }
+  }
+  std::vector<std::uint32_t> free;
+  std::uint32_t rows = 1;
+  for (std::size_t i = 0; i < z.misses.size(); ++i) {
+    ZMiss& miss = z.misses[i];
+    miss.line = 0;
+    if (waits_for[i] != kNoBurst) {
+      miss.line = z.misses[waits_for[i]].victim;  // a row already
+      free.push_back(miss.line);
+    }
+    miss.victim = kNoZLine;
+    if (asked[i]) {
+      if (free.empty()) {
+        free.push_back(rows++);
+      }
+      miss.victim = free.back();
+      free.pop_back();
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
-ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
+ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
   ZTrace trace;
   const int tile_size = record.config.tile_walker.tile_size;
   const std::vector<ZSurface> places = place_surfaces(record.surfaces, tile_size, shape.parts);
-  trace.memory_lines = memory_lines(places, shape);
-  ZCache cache(shape, trace.memory_lines);
+  trace.rows = memory_lines(places, shape);
+  ZCache cache(shape, trace.rows);
   const int bands = stream_bands(tile_size);
   std::array<std::uint8_t, 16> folded{};
   for (std::size_t i = 0; i < folded.size(); ++i) {
@@ -66,6 +135,12 @@ ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
   cache.flush([&](std::uint32_t slot, std::uint32_t /*line*/, std::uint32_t bytes) {
     trace.flush.push_back({.slot = slot, .bytes = bytes});
   });
+  return trace;
+}
+
+ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
+  ZTrace trace = trace_lines(record, shape);
+  trace.rows = replace_lines(trace.z, trace.rows);
   return trace;
 }
 

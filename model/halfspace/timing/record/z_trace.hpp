@@ -10,11 +10,16 @@
 namespace halfspace {
 
 struct ZTrace {
-  std::uint32_t memory_lines = 0;
+  std::uint32_t rows = 0;  ///< of the table of times that misses name by `line` and `victim`
   ZMissStream z;
   std::vector<ZFlush> flush;  ///< at the end of the frame
 };
 
+/// Each line of memory is a row.
+ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape);
+
+/// Few rows, which stay in the processor's cache: those of lines that some machine may have to wait for. The
+/// cycles are the same.
 ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape);
 
 /// The record as a stream on machines with the z cache of `trace`. Both must outlive it.

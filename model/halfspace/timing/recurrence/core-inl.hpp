@@ -1,9 +1,10 @@
 /// The timing contract (docs/timing.md and the *Cycles* of each unit's page) as arithmetic on packets.
 ///
 /// All times are exclusive ends or first cycles: `..._next_` is the first cycle in which a stage could take
-/// another packet. TimePolicy says what a time is: OneMachine, or one with a machine a lane; it has Time, for
-/// which later() and + must exist, Credits of a FIFO, and a Table of times. Probe sees every term (NoProbe:
-/// nobody looks).
+/// another packet. TimePolicy says what a time is: OneMachine, or one with a machine a lane. It has Time, for
+/// which later() and + must exist, Credits of a FIFO, and a Table of times; SetupTime and SetupCredits, the
+/// same for setup, which may be far ahead or behind; and a Clock, which says what the first cycle of Time is.
+/// Probe sees every term (NoProbe: nobody looks).
 ///
 /// A header in the manner of Highway: read once for each processor the code is compiled for, so that the
 /// lanes' instructions can be inlined. For one machine include core.hpp.
@@ -37,79 +38,86 @@ struct NoStalls {
   [[nodiscard]] static constexpr std::uint32_t cycles(StallPoint /*point*/, std::uint64_t /*n*/) { return 0; }
 };
 
+/// What a core reads and writes in places that it computes: apart from its times, which the compiler then
+/// keeps in registers where it can.
+template <class TimePolicy>
+struct RecurrenceMemory {
+  Machine<typename TimePolicy::Time, typename TimePolicy::SetupTime> machine;
+  std::array<typename TimePolicy::SetupCredits, kSetupFifos> setup_fifos;
+  std::array<typename TimePolicy::Credits, kFifos - kSetupFifos> fifos;  ///< the others
+  typename TimePolicy::Table out;  ///< by line of memory: first cycle in which it may be asked for again
+};
+
 template <class TimePolicy, class Stalls, class Probe>
 class RecurrenceCore {
  public:
   using T = typename TimePolicy::Time;
-  using CreditsT = typename TimePolicy::Credits;
-  using Fifos = std::array<CreditsT, kFifos>;
+  using S = typename TimePolicy::SetupTime;
+  using Clock = typename TimePolicy::Clock;
+  using Memory = RecurrenceMemory<TimePolicy>;
 
-  RecurrenceCore(const Machine<T>& machine, Fifos&& fifos, const Stalls& stalls, Probe& probe)
-      : machine_(machine), fifos_(std::move(fifos)), stalls_(stalls), probe_(probe) {}
+  /// `memory` must outlive the core.
+  HWY_INLINE RecurrenceCore(Memory& memory, const Stalls& stalls, Probe& probe)
+      : memory_(&memory), stalls_(stalls), probe_(&probe) {}
 
-  /// `memory_lines`: of all surfaces.
-  void start(std::uint32_t memory_lines) { out_ = typename TimePolicy::Table(memory_lines); }
-
-  void dropped() {
-    const T head = cull();
-    const T decide = later(head, decide_next_);
+  HWY_INLINE void dropped() {
+    const S head = cull();
+    const S decide = later(head, decide_next_);
     if constexpr (Probe::kLooks) {
       decided(head, head, decide);
     }
     decide_next_ = decide + 1;
-    fifo(Fifo::kSetupQueue).give(decide_next_);
+    fifo<Fifo::kSetupQueue>().give(culled_++, decide_next_);
   }
 
-  void drawn() {
-    const T head = cull();
-    const T divider = later(head, divider_next_);
-    const T decide = later(later(divider, decide_next_), fifo(Fifo::kSetup).usable());
+  HWY_INLINE void drawn() {
+    const S head = cull();
+    const S divider = later(head, divider_next_);
+    const S decide = later(later(divider, decide_next_), fifo<Fifo::kSetup>().usable(triangles_));
     if constexpr (Probe::kLooks) {
       decided(head, divider, decide);
     }
     decide_next_ = decide + 1;
-    divider_next_ = decide + machine_.setup_interval;
-    fifo(Fifo::kSetupQueue).give(decide_next_);
-    const T visible = decide + (machine_.setup_latency + stall(StallPoint::kSetup, triangles_));
-    ++triangles_;
-    const T taken = later(visible + 1, walk_next_);  // the cycle after accept
+    divider_next_ = decide + machine().setup_interval;
+    fifo<Fifo::kSetupQueue>().give(culled_++, decide_next_);
+    const S visible = decide + (machine().setup_latency + stall(StallPoint::kSetup, triangles_));
+    const S taken = later(visible + 1, clock_.setup(walk_next_));  // the cycle after accept
     if constexpr (Probe::kLooks) {
-      probe_.link(Link::kSetup, decide, taken);
+      probe_->link(Link::kSetup, decide, taken);
       if (taken > walk_next_) {
-        probe_.template split<2>(Stage::kTileWalker, walk_next_, {taken - 1, taken}, 0);
+        probe_->template split<2>(Stage::kTileWalker, walk_next_, {taken - 1, taken}, 0);
       }
-      probe_.note(&PacketTimes::accept, taken - 1);
+      probe_->note(&PacketTimes::accept, taken - 1);
     }
-    fifo(Fifo::kSetup).give(taken);
-    walk_next_ = taken;
+    fifo<Fifo::kSetup>().give(triangles_++, taken);
+    walk_next_ = near(taken);
   }
 
-  void job(const JobWork& work) {
-    const T stepped = walk_next_ + machine_.step_interval * work.steps;
-    const T emit_next = later(stepped, fifo(Fifo::kTileWalker).usable() + 1);
+  HWY_INLINE void job(const JobWork& work) {
+    const T stepped = walk_next_ + machine().step_interval * work.steps;
+    const T emit_next = later(stepped, fifo<Fifo::kTileWalker>().usable(jobs_) + 1);
     const T e =
         later(later(emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_)), e_next_),
-              fifo(Fifo::kEdgeEvaluator).usable());
-    const T coverage = e + machine_.edge_latency + stall(StallPoint::kEdgeEvaluator, jobs_);
-    const T g = later(later(coverage, g_next_), fifo(Fifo::kQuadGenerator).usable());
+              fifo<Fifo::kEdgeEvaluator>().usable(jobs_));
+    const T coverage = e + machine().edge_latency + stall(StallPoint::kEdgeEvaluator, jobs_);
+    const T g = later(later(coverage, g_next_), fifo<Fifo::kQuadGenerator>().usable(bursts_));
     if constexpr (Probe::kLooks) {
       const T visible = emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_));
-      probe_.link(Link::kTileWalker, emit_next - 1, e + 1);
-      probe_.busy(Stage::kTileWalker, walk_next_, stepped);
-      probe_.wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emit_next);
-      probe_.note(&PacketTimes::emit, emit_next - 1);
-      probe_.link(Link::kEdgeEvaluator, e, g + 1);
-      probe_.template split<2>(Stage::kEdgeEvaluator, e_next_, {visible, e}, 1);
-      probe_.note(&PacketTimes::e, e);
-      probe_.template split<2>(Stage::kQuadGenerator, g_next_, {coverage, g},
-                               work.quads == 0 ? T(1) : beats_of(work));
-      probe_.note(&PacketTimes::g, g);
+      probe_->link(Link::kTileWalker, emit_next - 1, e + 1);
+      probe_->busy(Stage::kTileWalker, walk_next_, stepped);
+      probe_->wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emit_next);
+      probe_->note(&PacketTimes::emit, emit_next - 1);
+      probe_->link(Link::kEdgeEvaluator, e, g + 1);
+      probe_->template split<2>(Stage::kEdgeEvaluator, e_next_, {visible, e}, 1);
+      probe_->note(&PacketTimes::e, e);
+      probe_->template split<2>(Stage::kQuadGenerator, g_next_, {coverage, g},
+                                work.quads == 0 ? T(1) : beats_of(work));
+      probe_->note(&PacketTimes::g, g);
     }
-    ++jobs_;
     walk_next_ = emit_next;
     e_next_ = e + 1;
-    fifo(Fifo::kTileWalker).give(e_next_);
-    fifo(Fifo::kEdgeEvaluator).give(g + 1);
+    fifo<Fifo::kTileWalker>().give(jobs_, e_next_);
+    fifo<Fifo::kEdgeEvaluator>().give(jobs_++, g + 1);
     if (work.quads == 0) {
       g_next_ = g + 1;
       return;
@@ -119,44 +127,61 @@ class RecurrenceCore {
   }
 
   /// The triangle is done after so many more steps.
-  void walked(std::uint32_t steps) {
-    const T done = walk_next_ + machine_.step_interval * steps;
+  HWY_INLINE void walked(std::uint32_t steps) {
+    const T done = walk_next_ + machine().step_interval * steps;
     if constexpr (Probe::kLooks) {
-      probe_.busy(Stage::kTileWalker, walk_next_, done);
+      probe_->busy(Stage::kTileWalker, walk_next_, done);
     }
     walk_next_ = done;
   }
 
   /// `cycles`: of the clear itself.
-  void fast_clear(T cycles) {
+  HWY_INLINE void fast_clear(S cycles) {
     clear_next_ = idle() + cycles;
     cull_next_ = later(cull_next_, clear_next_);
   }
 
   /// Writes back the dirty lines of the z cache, which has `lines`, and gives the cycles of the frame.
-  T flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
-    T scan_next = idle();
+  HWY_INLINE S flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
+    T scan_next = near(idle());
     std::uint32_t seen = 0;
     for (const ZFlush& line : dirty) {
-      const T scan = later(scan_next + (line.slot - seen), fifo(Fifo::kWriteBuffers).usable());
+      scan_next = keep_near(scan_next);
+      const T scan = later(scan_next + (line.slot - seen), fifo<Fifo::kWriteBuffers>().usable(writes_));
       scan_next = scan + 1;
       seen = line.slot + 1;
       write(scan_next, line.bytes);
     }
-    return later(later(scan_next + (lines - seen), written_next_), y_next_);
+    return later(clock_.setup(scan_next + (lines - seen)), clock_.setup(later(written_next_, y_next_)));
   }
 
   /// First cycle of beat 0 of the last burst at the sink.
   [[nodiscard]] T sink_start() const { return y_; }
   /// Cycle after the last beat of all bursts at the sink.
-  [[nodiscard]] T sink_next() const { return y_next_; }
+  [[nodiscard]] HWY_INLINE S sink_next() const { return clock_.last(y_next_, y_last_); }
+
+  // Where times are narrow, they count from a cycle that moves on: see TimePolicy::Clock.
+
+  /// To be called so often that no time grows beyond the width from one call to the next.
+  HWY_INLINE void keep_near() { walk_next_ = keep_near(walk_next_); }
+  /// A time was beyond the width: nothing that the core says is true.
+  [[nodiscard]] bool lost() const { return lost_; }
 
  private:
   using Misses = std::span<const ZMiss>;
 
-  [[nodiscard]] CreditsT& fifo(Fifo which) { return fifos_[static_cast<std::size_t>(which)]; }
+  template <Fifo kWhich>
+  [[nodiscard]] HWY_INLINE auto& fifo() {
+    constexpr auto kAt = static_cast<std::size_t>(kWhich);
+    if constexpr (kAt < kSetupFifos) {
+      return memory_->setup_fifos[kAt];
+    } else {
+      return memory_->fifos[kAt - kSetupFifos];
+    }
+  }
+  [[nodiscard]] HWY_INLINE const auto& machine() const { return memory_->machine; }
   [[nodiscard]] const T& beats_of(const JobWork& work) const {
-    return machine_.quad_beats[static_cast<std::size_t>(work.quads)];
+    return machine().quad_beats[static_cast<std::size_t>(work.quads)];
   }
   [[nodiscard]] auto stall(StallPoint point, std::uint64_t n) const { return stalls_.cycles(point, n); }
   static std::size_t log2_bytes(std::uint32_t bytes) {
@@ -164,18 +189,18 @@ class RecurrenceCore {
   }
 
   /// Takes the next triangle from the source; gives the cycle in which its verdict is at the queue's head.
-  T cull() {
-    const T c = later(cull_next_ + stall(StallPoint::kSource, culled_), fifo(Fifo::kSetupQueue).usable());
-    ++culled_;
+  HWY_INLINE S cull() {
+    const S c =
+        later(cull_next_ + stall(StallPoint::kSource, culled_), fifo<Fifo::kSetupQueue>().usable(culled_));
     cull_next_ = c + 1;
     return c + kSetupCullLatency;
   }
 
   /// Tells of a decision: the verdict was at the queue's head in `head`, and the divider free in `divider`.
-  void decided(const T& head, const T& divider, const T& decide) {
-    probe_.link(Link::kSetupQueue, cull_next_ - 1, decide + 1);
-    probe_.template split<3>(Stage::kSetup, decide_next_, {head, divider, decide}, 1);
-    probe_.note(&PacketTimes::decide, decide);
+  void decided(const S& head, const S& divider, const S& decide) {
+    probe_->link(Link::kSetupQueue, cull_next_ - 1, decide + 1);
+    probe_->template split<3>(Stage::kSetup, decide_next_, {head, divider, decide}, 1);
+    probe_->note(&PacketTimes::decide, decide);
   }
 
   /// Tells of a missing part that could be resolved from `ready` on: it was out of the cache from `out` on,
@@ -184,66 +209,116 @@ class RecurrenceCore {
   /// one's.
   void resolved(const T& moved, const T& ready, const T& out, const T& r, bool last) {
     const auto after = [&moved](const T& cycle) { return later(cycle, moved); };
-    probe_.wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
-    probe_.wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
-    probe_.wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(last ? r : r + 1));
+    probe_->wait(Stage::kZLookup, stall::kLookupWriteBack, after(ready), after(out));
+    probe_->wait(Stage::kZLookup, stall::kLookupFillBuffers, after(out), after(r));
+    probe_->wait(Stage::kZLookup, stall::kLookupRequest, after(r), after(last ? r : r + 1));
   }
 
   /// The first cycle in which no stage, no write to memory and no clear has anything left to do.
-  [[nodiscard]] T idle() const {
-    return later(later(later(decide_next_, walk_next_), later(e_next_, g_next_)),
-                 later(later(f_next_, b_next_), later(y_next_, later(clear_next_, written_next_))));
+  [[nodiscard]] HWY_INLINE S idle() const {
+    return later(later(decide_next_, clear_next_), clock_.setup(latest()));
   }
 
-  void burst(const JobWork& work, const T& g) {
+  /// Of all times behind setup.
+  [[nodiscard]] HWY_INLINE T latest() const {
+    return later(later(later(walk_next_, e_next_), later(g_next_, f_next_)),
+                 later(later(b_next_, y_next_), later(filled_next_, written_next_)));
+  }
+
+  /// Where times are far from the clock, moves it to `at`, which no packet to come is before; gives `at` on
+  /// the clock as it is then.
+  HWY_INLINE T keep_near(T at) {
+    if constexpr (Clock::kMoves) {
+      if (HWY_UNLIKELY(Clock::is_far(later(latest(), at)))) {
+        move_clock(at);
+        lost_ |= Clock::is_far(latest());
+        return T{};
+      }
+    }
+    return at;
+  }
+
+  /// A time of setup which no packet to come is before, on a clock that is moved there where it is far.
+  HWY_INLINE T near(const S& at) {
+    if constexpr (Clock::kMoves) {
+      while (HWY_UNLIKELY(clock_.is_far(at))) {
+        move_clock(clock_.jobs(at));
+      }
+    }
+    return clock_.jobs(at);
+  }
+
+  /// Times count from cycle `by` on. Those before are told from it no more: nothing waits for them.
+  HWY_INLINE void move_clock(T by) {
+    y_last_ = clock_.last(y_next_, y_last_);
+    walk_next_ = Clock::since(walk_next_, by);
+    e_next_ = Clock::since(e_next_, by);
+    g_next_ = Clock::since(g_next_, by);
+    f_next_ = Clock::since(f_next_, by);
+    filled_next_ = Clock::since(filled_next_, by);
+    b_next_ = Clock::since(b_next_, by);
+    written_next_ = Clock::since(written_next_, by);
+    y_ = Clock::since(y_, by);
+    y_next_ = Clock::since(y_next_, by);
+    for (auto& fifo : memory_->fifos) {
+      fifo.move_clock(by);
+    }
+    memory_->out.move_clock(by);
+    clock_.move(by);
+  }
+
+  HWY_INLINE void burst(const JobWork& work, const T& g) {
     const T visible = g + (kQuadLatency + stall(StallPoint::kQuadGenerator, bursts_));
-    const T f = later(later(visible, f_next_), fifo(Fifo::kEarlyZPending).usable());
+    const T f = later(later(visible, f_next_), fifo<Fifo::kEarlyZPending>().usable(bursts_));
     const T moved = f + beats_of(work);
     if constexpr (Probe::kLooks) {
-      probe_.link(Link::kQuadGenerator, g, moved);
-      probe_.template split<2>(Stage::kZLookup, f_next_, {visible, f}, moved - f);
-      probe_.note(&PacketTimes::f, f);
+      probe_->link(Link::kQuadGenerator, g, moved);
+      probe_->template split<2>(Stage::kZLookup, f_next_, {visible, f}, moved - f);
+      probe_->note(&PacketTimes::f, f);
     }
-    fifo(Fifo::kQuadGenerator).give(moved);
+    fifo<Fifo::kQuadGenerator>().give(bursts_, moved);
     f_next_ = moved;
     const Misses misses = work.misses;
-    const T filled_next = misses.empty() ? T{} : resolve(misses, f, moved);
-    const T slots = misses.empty() ? T{} : write_slots(misses);
-    const T b = later(later(later(f + machine_.lookup_latency, b_next_), later(filled_next, slots)),
-                      fifo(Fifo::kEarlyZ).usable());
-    const T beats = machine_.test_beats[static_cast<std::size_t>(work.quads)];
+    T b = later(later(f + machine().lookup_latency, b_next_), fifo<Fifo::kEarlyZ>().usable(bursts_));
+    T filled_next{};
+    T slots{};
+    if (!misses.empty()) {
+      filled_next = resolve(misses, f, moved);
+      slots = write_slots(misses);
+      b = later(b, later(filled_next, slots));
+    }
+    const T beats = machine().test_beats[static_cast<std::size_t>(work.quads)];
     if constexpr (Probe::kLooks) {
-      probe_.link(Link::kEarlyZPending, f, b + beats);
-      probe_.template split<4>(Stage::kZTest, b_next_, {f + machine_.lookup_latency, filled_next, slots, b},
-                               beats);
-      probe_.note(&PacketTimes::b, b);
+      probe_->link(Link::kEarlyZPending, f, b + beats);
+      probe_->template split<4>(Stage::kZTest, b_next_, {f + machine().lookup_latency, filled_next, slots, b},
+                                beats);
+      probe_->note(&PacketTimes::b, b);
     }
     b_next_ = b + beats;
-    fifo(Fifo::kEarlyZPending).give(b_next_);
+    fifo<Fifo::kEarlyZPending>().give(bursts_, b_next_);
     if (!misses.empty()) {
       swap(misses, b);
     }
     y_ = later(b + (kTestLatency + stall(StallPoint::kSink, bursts_)), y_next_);
     y_next_ = y_ + beats;
-    fifo(Fifo::kEarlyZ).give(y_next_);
+    fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
     if constexpr (Probe::kLooks) {
-      probe_.link(Link::kEarlyZ, b, y_next_);
-      probe_.burst_left(y_next_);
-      probe_.note(&PacketTimes::y, y_);
+      probe_->link(Link::kEarlyZ, b, y_next_);
+      probe_->burst_left(y_next_);
+      probe_->note(&PacketTimes::y, y_);
     }
-    ++bursts_;
   }
 
   /// Resolves the missing parts, one after the other, and sends the requests of those to fetch; gives the
   /// cycle from which on all of them are there.
-  T resolve(Misses misses, const T& f, const T& moved) {
+  HWY_INLINE T resolve(Misses misses, const T& f, const T& moved) {
     T resolve_next = f + 1;
     T there{};
     T last{};
     std::size_t sent = 0;
     for (const ZMiss& part : misses) {
-      const T out = later(resolve_next, out_.get(part.line));
-      const T r = part.fetch ? later(out, fifo(Fifo::kFillBuffers).usable(sent)) : out;
+      const T out = later(resolve_next, memory_->out.get(part.line));
+      const T r = part.fetch ? later(out, fifo<Fifo::kFillBuffers>().usable(fills_ + sent)) : out;
       if constexpr (Probe::kLooks) {
         resolved(moved, resolve_next, out, r, &part == &misses.back());
       }
@@ -254,10 +329,11 @@ class RecurrenceCore {
         continue;
       }
       ++sent;
-      there = later(r + machine_.memory_latency, filled_next_) + machine_.read_cycles[log2_bytes(part.bytes)];
+      there =
+          later(r + machine().memory_latency, filled_next_) + machine().read_cycles[log2_bytes(part.bytes)];
       filled_next_ = there;
       if constexpr (Probe::kLooks) {
-        probe_.read(machine_.read_cycles[log2_bytes(part.bytes)], there);
+        probe_->read(machine().read_cycles[log2_bytes(part.bytes)], there);
       }
     }
     f_next_ = later(moved, last);
@@ -265,52 +341,52 @@ class RecurrenceCore {
   }
 
   /// The cycle from which on all dirty victims find a slot of the write buffer.
-  [[nodiscard]] T write_slots(Misses misses) {
+  [[nodiscard]] HWY_INLINE T write_slots(Misses misses) {
     T slots{};
     std::size_t wanted = 0;
     for (const ZMiss& part : misses) {
       if (part.write_back) {
-        slots = fifo(Fifo::kWriteBuffers).usable(wanted++);
+        slots = fifo<Fifo::kWriteBuffers>().usable(writes_ + wanted++);
       }
     }
     return slots;
   }
 
   /// Lines move in cycle b: fill buffers become free, victims leave.
-  void swap(Misses misses, const T& b) {
+  HWY_INLINE void swap(Misses misses, const T& b) {
     const T after = b + 1;
     for (const ZMiss& part : misses) {
       if (part.fetch) {
-        fifo(Fifo::kFillBuffers).give(after);
+        fifo<Fifo::kFillBuffers>().give(fills_++, after);
       }
       if (part.write_back) {
         write(after, part.victim_bytes);
       }
       if (part.victim != kNoZLine) {
-        out_.set(part.victim, part.write_back ? written_next_ : after);
+        memory_->out.set(part.victim, part.write_back ? written_next_ : after);
       }
     }
   }
 
   /// A line enters the write buffer and may move to memory from cycle `from` on.
-  void write(const T& from, std::uint32_t bytes) {
-    const T cycles = machine_.write_cycles[log2_bytes(bytes)];
+  HWY_INLINE void write(const T& from, std::uint32_t bytes) {
+    const T cycles = machine().write_cycles[log2_bytes(bytes)];
     written_next_ = later(from, written_next_) + cycles;
-    fifo(Fifo::kWriteBuffers).give(written_next_);
+    fifo<Fifo::kWriteBuffers>().give(writes_++, written_next_);
     if constexpr (Probe::kLooks) {
-      probe_.write(cycles, written_next_);
+      probe_->write(cycles, written_next_);
     }
   }
 
-  Machine<T> machine_;
-  Fifos fifos_;
+  Memory* memory_;
   Stalls stalls_;
-  Probe& probe_;
-  typename TimePolicy::Table out_;  ///< by line of memory: first cycle in which it may be asked for again
+  Probe* probe_;
 
-  T cull_next_{};
-  T decide_next_{};
-  T divider_next_{};
+  S cull_next_{};
+  S decide_next_{};
+  S divider_next_{};
+  S clear_next_{};
+  S y_last_{};
   T walk_next_{};
   T e_next_{};
   T g_next_{};
@@ -320,12 +396,16 @@ class RecurrenceCore {
   T written_next_{};
   T y_{};
   T y_next_{};
-  T clear_next_{};
+  Clock clock_{};
+  bool lost_ = false;
 
+  // packets so far
   std::uint64_t culled_ = 0;
   std::uint64_t triangles_ = 0;
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;
+  std::uint64_t fills_ = 0;
+  std::uint64_t writes_ = 0;
 };
 
 }  // namespace halfspace::HWY_NAMESPACE

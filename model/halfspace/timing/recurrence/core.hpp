@@ -9,7 +9,21 @@ namespace halfspace {
 using HWY_NAMESPACE::NoProbe;
 using HWY_NAMESPACE::NoStalls;
 using HWY_NAMESPACE::RecurrenceCore;
+using HWY_NAMESPACE::RecurrenceMemory;
 using HWY_NAMESPACE::replay;
 using HWY_NAMESPACE::ReplayHooks;
+
+/// Of the machine of `config`, whose surfaces take so many lines of memory.
+inline RecurrenceMemory<OneMachine> recurrence_memory(const Config& config, std::uint32_t memory_lines) {
+  RecurrenceMemory<OneMachine> memory;
+  memory.machine = machine(config);
+  const std::array<int, kFifos> capacity = capacities(config);
+  for (std::size_t i = 0; i < kFifos; ++i) {
+    Credits& fifo = i < kSetupFifos ? memory.setup_fifos[i] : memory.fifos[i - kSetupFifos];
+    fifo = Credits(capacity[i]);
+  }
+  memory.out = TimeTable(memory_lines);
+  return memory;
+}
 
 }  // namespace halfspace

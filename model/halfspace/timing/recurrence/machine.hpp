@@ -32,15 +32,18 @@ inline constexpr std::size_t kMostQuads = 64;
 /// Logarithm of the bytes of the largest line, 16x16 samples of 4 bytes.
 inline constexpr std::size_t kMostLineBytesLog2 = 10;
 
-/// T is a time: a number of cycles, or one for each of several machines.
-template <class T>
+/// The first FIFOs are those of setup.
+inline constexpr std::size_t kSetupFifos = static_cast<std::size_t>(Fifo::kSetup) + 1;
+
+/// T is a time: a number of cycles, or one for each of several machines. S is one of setup.
+template <class T, class S = T>
 struct Machine {
   std::array<T, kMostQuads + 1> quad_beats;           ///< by the quads of a burst
   std::array<T, kMostQuads + 1> test_beats;           ///< the same in early_z
   std::array<T, kMostLineBytesLog2 + 1> read_cycles;  ///< by the logarithm of the bytes
   std::array<T, kMostLineBytesLog2 + 1> write_cycles;
-  T setup_interval;
-  T setup_latency;  ///< from the decision to the walker
+  S setup_interval;
+  S setup_latency;  ///< from the decision to the walker
   T step_interval;
   T edge_latency;
   T lookup_latency;  ///< from the lookup to the test
@@ -68,33 +71,21 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   return m;
 }
 
-/// The credits of a FIFO of one machine: from which cycle on each is usable again, packet by packet.
+/// The credits of a FIFO of one machine, by the packets that use them.
 class Credits {
  public:
   explicit Credits(int capacity = 1) : capacity_(static_cast<std::size_t>(capacity)) {}
 
-  /// The cycle from which on the credit is usable that the next packet needs, or the one `ahead` after it.
-  [[nodiscard]] std::uint64_t usable(std::size_t ahead = 0) const {
-    return usable_[(given_ + ahead - capacity_) % kMostCredits];
-  }
+  /// The cycle from which on packet n finds a credit. That of packet n - capacity must have been given.
+  [[nodiscard]] std::uint64_t usable(std::size_t n) const { return usable_[(n - capacity_) % kMostCredits]; }
 
-  /// The next packet leaves, and its credit is usable again from `cycle` on.
-  void give(std::uint64_t cycle) { usable_[given_++ % kMostCredits] = cycle; }
+  /// Packet n leaves, and its credit is usable again from `cycle` on.
+  void give(std::size_t n, std::uint64_t cycle) { usable_[n % kMostCredits] = cycle; }
 
  private:
   std::array<std::uint64_t, kMostCredits> usable_{};
   std::size_t capacity_;
-  std::size_t given_ = 0;
 };
-
-inline std::array<Credits, kFifos> make_credits(const Config& config) {
-  std::array<Credits, kFifos> credits;
-  const std::array<int, kFifos> capacity = capacities(config);
-  for (std::size_t i = 0; i < kFifos; ++i) {
-    credits[i] = Credits(capacity[i]);
-  }
-  return credits;
-}
 
 /// A time a row, 0 at first.
 class TimeTable {
@@ -107,11 +98,31 @@ class TimeTable {
   LazyArray<std::uint64_t> times_;
 };
 
+/// A clock for times that are wide enough to count from cycle 0.
+struct FixedClock {
+  static constexpr bool kMoves = false;
+  template <class T>
+  static constexpr const T& setup(const T& time) {
+    return time;
+  }
+  template <class T>
+  static constexpr const T& jobs(const T& time) {
+    return time;
+  }
+  template <class T>
+  static constexpr const T& last(const T& time, const T& /*before*/) {
+    return time;
+  }
+};
+
 /// The recurrence of a single machine.
 struct OneMachine {
   using Time = std::uint64_t;
+  using SetupTime = Time;
   using Credits = halfspace::Credits;
+  using SetupCredits = Credits;
   using Table = TimeTable;
+  using Clock = FixedClock;
 };
 
 }  // namespace halfspace

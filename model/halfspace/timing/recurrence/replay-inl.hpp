@@ -27,20 +27,83 @@ struct ReplayHooks {
   void end_segment(const StreamSegment& /*segment*/, bool /*bursts*/) {}
   /// The next job's place in StreamView::jobs.
   void job(std::size_t /*index*/) {}
-  /// A burst is all the way through.
-  void burst() {}
+  /// A burst is all the way through `core`.
+  template <class Core>
+  void burst(const Core& /*core*/) {}
 };
+
+/// How far a part of a stream has been read.
+struct StreamCursor {
+  const StreamTriangle* triangle;
+  const StreamJob* job;
+  const ZMiss* miss;
+  const std::uint32_t* miss_burst;
+  std::uint32_t access = 0;
+  bool continues_triangle;
+};
+
+/// The misses of the next access.
+HWY_INLINE std::span<const ZMiss> next_misses(StreamCursor& at) {
+  const ZMiss* const first = at.miss;
+  for (; *at.miss_burst == at.access; ++at.miss_burst) {
+    ++at.miss;
+  }
+  ++at.access;
+  return {first, at.miss};
+}
+
+/// The triangles of a segment; `open`: it goes on in the next part. Works with copies: a function without
+/// other calls that owns the core keeps its times in registers.
+template <class Core, class Hooks>
+HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& segment, bool open,
+                                   StreamCursor& cursor, Core& kept, Hooks& hooks, bool& bursts) {
+  Core core = kept;
+  StreamCursor at = cursor;
+  bool any = false;
+  const StreamTriangle* const last = at.triangle + segment.triangles;
+  for (; at.triangle != last; ++at.triangle) {
+    if (!at.continues_triangle) {
+      for (std::uint32_t i = at.triangle->dropped_before; i > 0; --i) {
+        core.dropped();
+      }
+      core.drawn();
+    }
+    at.continues_triangle = false;
+    for (const StreamJob* const end = at.job + at.triangle->jobs; at.job != end; ++at.job) {
+      JobWork work{.steps = at.job->steps(), .quads = at.job->quads(), .misses = {}};
+      if (segment.touches_depth != 0 && work.quads != 0) {
+        work.misses = next_misses(at);
+      }
+      hooks.job(static_cast<std::size_t>(at.job - part.jobs.data()));
+      core.job(work);
+      if (work.quads != 0) {
+        any = true;
+        hooks.burst(core);
+      }
+    }
+    if (!open || !part.open_triangle || at.triangle + 1 != last) {
+      core.walked(at.triangle->steps_after);
+    }
+  }
+  if (!open) {
+    for (std::uint32_t i = segment.dropped_after; i > 0; --i) {
+      core.dropped();
+    }
+  }
+  bursts |= any;
+  cursor = at;
+  kept = core;
+}
 
 /// Feeds `core` with the packets of a part of a stream. `bursts` is kept from part to part: whether the
 /// segment that is open had any. `clear_cycles(surface)` is the time of a fast clear.
 template <class Core, class Hooks, class ClearCycles>
 void replay(const StreamView& part, Core& core, Hooks& hooks, bool& bursts, const ClearCycles& clear_cycles) {
-  const StreamTriangle* triangle = part.triangles.data();
-  const StreamJob* job = part.jobs.data();
-  const ZMiss* miss = part.misses.data();
-  const std::uint32_t* miss_burst = part.miss_burst.data();
-  std::uint32_t access = 0;
-  bool continues_triangle = part.continues_triangle;
+  StreamCursor at{.triangle = part.triangles.data(),
+                  .job = part.jobs.data(),
+                  .miss = part.misses.data(),
+                  .miss_burst = part.miss_burst.data(),
+                  .continues_triangle = part.continues_triangle};
   for (const StreamSegment& segment : part.segments) {
     if (segment.kind == StreamSegment::Kind::kFastClear) {
       core.fast_clear(clear_cycles(segment.surface));
@@ -51,41 +114,8 @@ void replay(const StreamView& part, Core& core, Hooks& hooks, bool& bursts, cons
       hooks.begin_segment(segment);
     }
     const bool open = part.open_segment && &segment == &part.segments.back();
-    const StreamTriangle* const last = triangle + segment.triangles;
-    for (; triangle != last; ++triangle) {
-      if (!continues_triangle) {
-        for (std::uint32_t i = 0; i < triangle->dropped_before; ++i) {
-          core.dropped();
-        }
-        core.drawn();
-      }
-      continues_triangle = false;
-      const StreamJob* const end = job + triangle->jobs;
-      for (; job != end; ++job) {
-        JobWork work{.steps = job->steps(), .quads = job->quads(), .misses = {}};
-        if (segment.touches_depth != 0 && work.quads != 0) {
-          const ZMiss* const first = miss;
-          for (; *miss_burst == access; ++miss_burst) {
-            ++miss;
-          }
-          work.misses = {first, miss};
-          ++access;
-        }
-        hooks.job(static_cast<std::size_t>(job - part.jobs.data()));
-        core.job(work);
-        if (work.quads != 0) {
-          bursts = true;
-          hooks.burst();
-        }
-      }
-      if (!open || !part.open_triangle || triangle + 1 != last) {
-        core.walked(triangle->steps_after);
-      }
-    }
+    replay_triangles(part, segment, open, at, core, hooks, bursts);
     if (!open) {
-      for (std::uint32_t i = 0; i < segment.dropped_after; ++i) {
-        core.dropped();
-      }
       hooks.end_segment(segment, bursts);
     }
   }

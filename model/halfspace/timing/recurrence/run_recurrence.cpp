@@ -16,7 +16,8 @@ class RecurrenceReader final : public StreamReader {
   RecurrenceReader(const Config& config, const Stalls& stalls, CycleObserver* observer, PacketTimes* times)
       : config_(config),
         probe_(capacities(config), times, observer),
-        core_(machine(config), make_credits(config), stalls, probe_) {}
+        memory_(recurrence_memory(config, 0)),
+        core_(memory_, stalls, probe_) {}
 
   [[nodiscard]] bool wants_tiles() const override { return kObserved; }
   [[nodiscard]] bool has_time() const override { return true; }
@@ -25,7 +26,7 @@ class RecurrenceReader final : public StreamReader {
     for (const StreamSurface& surface : surfaces) {
       clear_cycles_.push_back(static_cast<std::uint64_t>(fast_clear_cycles(surface.tiles, config_)));
     }
-    core_.start(memory_lines);
+    memory_.out = TimeTable(memory_lines);
   }
 
   void read(const StreamView& part, std::vector<std::uint64_t>* burst_cycles) override {
@@ -57,15 +58,17 @@ class RecurrenceReader final : public StreamReader {
         }
       }
     }
-    void burst() {
+    template <class Core>
+    void burst(const Core& core) {
       if (burst_cycles != nullptr) {
-        burst_cycles->push_back(reader.core_.sink_start());
+        burst_cycles->push_back(core.sink_start());
       }
     }
   };
 
   const Config& config_;
   CycleProbe<kObserved> probe_;
+  RecurrenceMemory<OneMachine> memory_;
   RecurrenceCore<OneMachine, Stalls, CycleProbe<kObserved>> core_;
   std::vector<std::uint64_t> clear_cycles_;  ///< by surface
   std::uint32_t draws_ = 0;

@@ -1,0 +1,330 @@
+// Many machines at once in SIMD lanes, of 16 and of 32 bits, against the recurrence of one machine in 64.
+#include <hwy/targets.h>
+
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "halfspace/machine/surfaces.hpp"
+#include "halfspace/timing/record/retime.hpp"
+#include "halfspace/timing/recurrence/core.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
+#include "random_machine.hpp"
+
+using namespace halfspace;
+using namespace halfspace::testing;
+
+namespace {
+
+/// Calls check() once for each kind of vectors that this processor has.
+template <class Check>
+void with_all_vectors(const Check& check) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    CAPTURE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    check();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+/// The batch says what each machine says alone.
+void check_batch(Retimer& retimer, const std::vector<Config>& machines) {
+  std::vector<RetimedFrame> alone;
+  alone.reserve(machines.size());
+  for (const Config& config : machines) {
+    alone.push_back(retimer.retime(config));
+  }
+  with_all_vectors([&] {
+    const std::vector<RetimedFrame> batch = retimer.retime(machines);
+    for (std::size_t i = 0; i < machines.size(); ++i) {
+      CAPTURE(i, difference_from_default(machines[i]));
+      REQUIRE(batch[i] == alone[i]);
+    }
+  });
+}
+
+/// Packets as no frame has them: walks, draws and gaps of all lengths.
+FrameRecord random_record(Random& random, const Config& config) {
+  FrameRecord record;
+  record.config = config;
+  record.surfaces.push_back({.tiles_x = 16, .tiles = 256, .sample_bytes = pick(random, {2u, 4u})});
+  const int most_quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
+  const std::uint32_t most_steps = pick(random, {1u, 3u, 40u, 500u});
+  const auto count = [&](std::uint32_t few, std::uint32_t many) {
+    return static_cast<std::uint32_t>(random.between(0, random.between(0, 3) == 0 ? many : few));
+  };
+  PacketStream& packets = record.packets;
+  for (auto segments = random.between(1, 12); segments > 0; --segments) {
+    StreamSegment segment{.surface = 0, .dropped_after = count(4, 300)};
+    if (config.z_cache.fast_clear && random.between(0, 4) == 0) {
+      packets.segments.push_back({.kind = StreamSegment::Kind::kFastClear, .surface = 0});
+      continue;
+    }
+    segment.kind = random.between(0, 4) == 0 ? StreamSegment::Kind::kDrawnClear : StreamSegment::Kind::kDraw;
+    segment.touches_depth = random.between(0, 4) != 0 ? 1 : 0;
+    segment.triangles = count(10, 100);
+    const std::int64_t local = random.between(0, 15);  // bursts stay in so many columns
+    for (std::uint32_t i = 0; i < segment.triangles; ++i) {
+      const StreamTriangle triangle{
+          .dropped_before = count(2, 50), .jobs = count(4, 60), .steps_after = count(0, most_steps)};
+      packets.triangles.push_back(triangle);
+      for (std::uint32_t k = 0; k < triangle.jobs; ++k) {
+        const auto quads = static_cast<int>(random.between(0, 2) == 0 ? 0 : random.between(1, most_quads));
+        packets.jobs.emplace_back(1 + count(1, most_steps - 1), quads);
+        if (quads != 0 && segment.touches_depth != 0) {
+          const auto bands =
+              static_cast<std::int64_t>((1u << stream_bands(config.tile_walker.tile_size)) - 1);
+          const auto touched = static_cast<std::uint8_t>(random.between(1, bands));
+          packets.accesses.emplace_back(
+              static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched,
+              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))));
+        }
+      }
+    }
+    packets.segments.push_back(segment);
+  }
+  return record;
+}
+
+/// Machines that differ from `recorded` in time alone, more than go into a pass with its z cache.
+std::vector<Config> random_machines(Random& random, const Config& recorded, std::size_t count) {
+  std::vector<Config> machines;
+  for (std::size_t i = 0; i < count; ++i) {
+    Config config = random_timing(random, recorded);
+    if (i % 8 != 0) {
+      config.z_cache.lines = recorded.z_cache.lines;
+      config.z_cache.ways = recorded.z_cache.ways;
+      config.z_cache.parts = recorded.z_cache.parts;
+      config.z_cache.misses_in_flight = std::max(config.z_cache.misses_in_flight, recorded.z_cache.parts);
+      config.z_cache.write_buffers = std::max(config.z_cache.write_buffers, recorded.z_cache.parts);
+    }
+    if (random.between(0, 3) != 0) {  // fast enough for 16 bits
+      config.memory.latency = std::min(config.memory.latency, 400);
+    }
+    machines.push_back(config);
+  }
+  return machines;
+}
+
+struct NoteEnds : ReplayHooks {
+  const RecurrenceCore<OneMachine, NoStalls, NoProbe>& core;
+  RetimedFrame& result;
+
+  void end_segment(const StreamSegment& segment, bool bursts) {
+    if (segment.kind == StreamSegment::Kind::kDraw) {
+      const std::uint64_t before = result.draw_end.empty() ? 0 : result.draw_end.back();
+      result.draw_end.push_back(bursts ? core.sink_next() - 1 : before);
+    }
+  }
+};
+
+/// `record` on the machine of `config` with a time for each line of memory.
+RetimedFrame with_all_lines(const FrameRecord& record, const Config& config) {
+  const ZTrace trace = trace_lines(record, z_cache_shape(config));
+  RecurrenceMemory<OneMachine> memory = recurrence_memory(config, trace.rows);
+  NoProbe probe;
+  RecurrenceCore<OneMachine, NoStalls, NoProbe> core(memory, NoStalls{}, probe);
+  RetimedFrame result;
+  NoteEnds hooks{{}, core, result};
+  bool bursts = false;
+  replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
+    return static_cast<std::uint64_t>(fast_clear_cycles(record.surfaces[surface].tiles, config));
+  });
+  result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_cache.lines));
+  return result;
+}
+
+/// One triangle with so many jobs of `steps` each, all with 4 quads; bursts change between `lines` tiles.
+FrameRecord long_triangle(std::uint32_t jobs, std::uint32_t steps, std::uint32_t lines) {
+  FrameRecord record;
+  record.surfaces.push_back({.tiles_x = 64, .tiles = 512, .sample_bytes = 4});
+  record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
+  record.packets.triangles.push_back({.jobs = jobs});
+  for (std::uint32_t i = 0; i < jobs; ++i) {
+    record.packets.jobs.emplace_back(steps, 4);
+    record.packets.accesses.emplace_back(i % lines % 64, i % lines / 64, std::uint8_t{15}, std::uint8_t{15});
+  }
+  return record;
+}
+
+/// 70 machines around `base`: more than a pass has.
+std::vector<Config> latencies(const Config& base) {
+  std::vector<Config> machines;
+  for (int i = 0; i < 70; ++i) {
+    machines.push_back(base);
+    machines.back().memory.latency = base.memory.latency + i % 7;
+    machines.back().early_z.pending = base.early_z.pending - i % 5;
+  }
+  return machines;
+}
+
+}  // namespace
+
+TEST_CASE("lanes of every processor say what one machine says, on random packets", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 40; ++run) {
+    CAPTURE(seed(), run);
+    const Config recorded = random_config(random);
+    CAPTURE(difference_from_default(recorded));
+    Retimer retimer(random_record(random, recorded));
+    const auto count = static_cast<std::size_t>(random.between(1, 100));
+    check_batch(retimer, random_machines(random, recorded, count));
+  }
+}
+
+TEST_CASE("lanes of every processor say what a full run says, on random frames", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 15; ++run) {
+    CAPTURE(seed(), run);
+    const Config recorded = random_config(random);
+    const Frame frame = random_frame(random);
+    Retimer retimer(record_frame(frame, recorded));
+    const std::vector<Config> machines = random_machines(random, recorded, 40);
+    check_batch(retimer, machines);
+    for (const Config& config : machines) {
+      CAPTURE(difference_from_default(config));
+      REQUIRE(retimer.retime(config).cycles == run_recurrence(frame, config).cycles.cycles);
+    }
+  }
+}
+
+TEST_CASE("a table of few rows says what one of all lines of memory says", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 60; ++run) {
+    CAPTURE(seed(), run);
+    const Config recorded = random_config(random);
+    Retimer retimer(random_record(random, recorded));
+    for (const Config& config : random_machines(random, recorded, 20)) {
+      CAPTURE(difference_from_default(config));
+      REQUIRE(retimer.retime(config) == with_all_lines(retimer.record(), config));
+    }
+  }
+}
+
+TEST_CASE("a table of few rows holds every line that a burst waits for", "[timing]") {
+  // A line leaves, dirty; so do `more` others, and fill the write buffer; `clean` bursts pass that write
+  // nothing, and fill the pending store; then the first line is asked for again.
+  Config config;
+  config.tile_walker.fifo = config.early_z.pending = config.z_cache.write_buffers = 64;
+  config.z_cache.lines = config.z_cache.ways = 1;
+  config.z_cache.misses_in_flight = 64;
+  config.memory.latency = 1;
+  config.memory.read_bytes = 1024;
+  config.memory.write_bytes = 1;
+  bool waited = false;
+  for (const std::uint32_t more : {0u, 1u, 30u, 61u, 62u, 63u, 64u, 65u, 66u, 100u}) {
+    for (const std::uint32_t clean : {0u, 1u, 30u, 61u, 62u, 63u, 64u, 65u, 66u, 200u}) {
+      CAPTURE(more, clean);
+      FrameRecord record = long_triangle(1 + more + clean + 2, 1, 512);
+      record.config.z_cache = config.z_cache;
+      for (std::uint32_t i = 0; i < record.packets.accesses.size(); ++i) {
+        StreamAccess& access = record.packets.accesses[i];
+        const auto written = static_cast<std::uint8_t>(i <= more ? 15 : 0);
+        access = StreamAccess(access.tile_x(), access.tile_y(), access.touched(), written);
+      }
+      const RetimedFrame not_asked = with_all_lines(record, config);
+      record.packets.accesses.back() = StreamAccess(0, 0, std::uint8_t{15}, std::uint8_t{0});
+      const RetimedFrame asked = with_all_lines(record, config);
+      waited |= more > 60 && clean > 65 && asked.draw_end > not_asked.draw_end;
+      REQUIRE(Retimer(record).retime(config) == asked);
+    }
+  }
+  CHECK(waited);
+}
+
+TEST_CASE("a frame of more than 2^16 cycles goes through lanes of 16 bits", "[timing]") {
+  Retimer retimer(long_triangle(60000, 3, 2));
+  const std::vector<Config> machines = latencies(Config{});
+  REQUIRE(detail::longest_job(machines.back(), 3) < detail::kNarrowRoom);
+  CHECK(retimer.retime(machines[0]).cycles > std::uint64_t{1} << 17);
+  check_batch(retimer, machines);
+}
+
+TEST_CASE("a gap of more than 2^16 cycles goes through lanes of 16 bits", "[timing]") {
+  // dropped triangles, a clear that takes its time, walks without a job after the last burst of a draw, and a
+  // draw without bursts at the end
+  FrameRecord record = long_triangle(100, 1, 64);
+  record.surfaces[0].tiles = 1 << 18;
+  PacketStream& packets = record.packets;
+  packets.segments[0].dropped_after = 200000;
+  packets.segments.push_back({.kind = StreamSegment::Kind::kFastClear, .surface = 0});
+  packets.segments.push_back({.surface = 0, .triangles = 100, .dropped_after = 70000});
+  packets.triangles.push_back({.dropped_before = 100000, .jobs = 1});
+  packets.jobs.emplace_back(1u, 4);
+  packets.segments.push_back({.surface = 0, .triangles = 201});
+  for (int i = 0; i < 300; ++i) {
+    packets.triangles.push_back({.jobs = 0, .steps_after = 3000});
+  }
+  Config config;
+  config.z_cache.clear_tiles = 1;
+  record.config.z_cache.clear_tiles = 1;
+  Retimer retimer(std::move(record));
+  const RetimedFrame one = retimer.retime(config);
+  CHECK(one.cycles > 200000 + (1 << 18) + 170000);
+  REQUIRE(one.draw_end.size() == 3);
+  CHECK(one.draw_end[2] == one.draw_end[1]);
+  check_batch(retimer, latencies(config));
+}
+
+TEST_CASE("a flush of more than 2^16 cycles goes through lanes of 16 bits", "[timing]") {
+  FrameRecord record = long_triangle(512, 1, 512);
+  Config config;
+  config.z_cache.lines = 512;
+  config.z_cache.ways = 16;
+  config.memory.write_bytes = 1;
+  record.config.z_cache = config.z_cache;
+  Retimer retimer(std::move(record));
+  CHECK(retimer.retime(config).cycles > std::uint64_t{1} << 16);
+  check_batch(retimer, latencies(config));
+}
+
+TEST_CASE("packets that are too far apart for 16 bits are timed in 32", "[timing]") {
+  // each burst fits, but the walker is 64 bursts of 2000 cycles before z_test
+  Config slow;
+  slow.memory.latency = 2000;
+  slow.tile_walker.fifo = slow.early_z.pending = slow.quad_generator.fifo = 64;
+  slow.z_cache.lines = slow.z_cache.ways = slow.z_cache.misses_in_flight = 1;
+  REQUIRE(detail::longest_job(slow, 1) < detail::kNarrowRoom);
+  FrameRecord record = long_triangle(2000, 1, 64);
+  record.config.z_cache = slow.z_cache;
+  Retimer retimer(std::move(record));
+  std::vector<Config> machines = latencies(slow);
+  CHECK(retimer.retime(machines[0]).cycles > std::uint64_t{2000} * 2000);
+  machines.push_back(slow);
+  machines.back().memory.latency = 60000;  // a burst alone does not fit
+  CHECK(detail::longest_job(machines.back(), 1) > detail::kNarrowRoom);
+  check_batch(retimer, machines);
+}
+
+TEST_CASE("no burst takes longer than the bound that lanes of 16 bits rely on", "[timing]") {
+  Random random(seed());
+  for (int run = 0; run < 200; ++run) {
+    CAPTURE(seed(), run);
+    const Config config = random_config(random);
+    CAPTURE(difference_from_default(config));
+    FrameRecord record = random_record(random, config);
+    record.packets.segments.clear();
+    // one triangle, so that jobs alone take the time, on a pipe that is as long as the bound of a job
+    const auto jobs = static_cast<std::uint32_t>(record.packets.jobs.size());
+    record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
+    record.packets.triangles.assign(1, {.jobs = jobs});
+    std::uint32_t most_steps = 0;
+    record.packets.accesses.clear();
+    for (const StreamJob& job : record.packets.jobs) {
+      most_steps = std::max(most_steps, job.steps());
+      if (job.quads() != 0) {
+        record.packets.accesses.emplace_back(static_cast<std::uint32_t>(random.between(0, 15)),
+                                             static_cast<std::uint32_t>(random.between(0, 15)),
+                                             std::uint8_t{3}, std::uint8_t{3});
+      }
+    }
+    const std::uint64_t bound = detail::longest_job(config, most_steps);
+    const auto lines = static_cast<std::uint64_t>(config.z_cache.lines);
+    const std::uint64_t flush = lines * (1 + 1024);
+    CHECK(Retimer(record).retime(config).cycles <= (jobs + 1) * bound + flush + lines);
+  }
+}
