@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/ptf.hpp"

@@ -75,6 +75,36 @@ TEST_CASE("run: replaces an earlier result, refuses any other folder, leaves not
   }
 }
 
+TEST_CASE("run: both cores write the same files") {
+  const Place place;
+  for (const char* frame : {"vkcube.ptf.xz", "cc0_truck.ptf.xz"}) {
+    const std::string run = "run " + scene(frame) + " --no-pictures --out " + place.path.string();
+    REQUIRE(place.run(run + "/a --core fast").status == 0);
+    REQUIRE(place.run(run + "/b --core readable").status == 0);
+    for (const std::string& name : entries(place.path / "a")) {
+      CAPTURE(frame, name);
+      std::string ours = slurp(place.path / "a" / name);
+      const std::string fast = "\"core\": \"fast\"";
+      if (name == "stats.json") {
+        REQUIRE(ours.find(fast) != std::string::npos);
+        ours.replace(ours.find(fast), fast.size(), "\"core\": \"readable\"");
+      }
+      CHECK(ours == slurp(place.path / "b" / name));
+    }
+  }
+}
+
+TEST_CASE("run: the core is one that there is, of a fidelity that has one, and covers the run") {
+  const Place place;
+  const std::string run = "run " + scene("vkcube.ptf.xz") + " ";
+  check_error(place.run(run + "--core quick"), {"--core", "quick", "auto,fast,readable"});
+  check_error(place.run(run + "--core fast --fidelity systemc"),
+              {"systemc", "core", "legal", "functional", "recurrence"});
+  check_error(place.run(run + "--core fast --set tile_walker.tile_size=16"),
+              {"core is 'fast'", "tile_walker.tile_size = 16", "legal: auto, readable"});
+  check_error(place.run(run + "--core fast --fidelity recurrence"), {"core is 'fast'", "time"});
+}
+
 TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
   const Place place;
   const std::string run =

@@ -1,7 +1,7 @@
 #include <numeric>
 
 #include "fuzz_input.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/scene/ptf.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <sstream>
 
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/report/npy.hpp"
 #include "halfspace/scene/ptf.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../frames.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/reference/exact_depth.hpp"
 #include "halfspace/scene/front_end.hpp"
 #include "halfspace/scene/validate.hpp"

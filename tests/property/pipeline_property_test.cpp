@@ -5,7 +5,7 @@
 #include <map>
 
 #include "../frames.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/scene/validate.hpp"
 #include "random.hpp"
@@ -22,7 +22,7 @@ glm::dvec3 random_point(Random& random, int low, int high) {
           static_cast<double>(random.between(0, 1 << 20)) / (1 << 20)};
 }
 
-std::vector<glm::dvec3> random_triangles(Random& random, int size, int count) {
+std::vector<glm::dvec3> window_triangles(Random& random, int size, int count) {
   std::vector<glm::dvec3> window;
   for (int n = 0; n < count; ++n) {
     const bool small = random.between(0, 1) == 0;
@@ -155,7 +155,7 @@ TEST_CASE("a jittered mesh has no gaps and no double covers") {
 TEST_CASE("the image depends neither on vertex order, nor on draw order, tile size or skipped work") {
   Random random(seed());
   const DepthFormat format = GENERATE(DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32);
-  const std::vector<glm::dvec3> window = random_triangles(random, 128, 200);
+  const std::vector<glm::dvec3> window = window_triangles(random, 128, 200);
   FrameBuilder builder(128, format);
   builder.draw(window);
   const Surface first = run_surface(builder.frame);
@@ -201,7 +201,7 @@ TEST_CASE("every quad leaves once, aligned and in API order, and the lanes add u
   Random random(seed());
   FrameBuilder builder(128);
   for (int n = 0; n < 10; ++n) {
-    builder.draw(random_triangles(random, 128, 30));
+    builder.draw(window_triangles(random, 128, 30));
   }
   Config config;
   config.tile_walker.tile_size = tile_size;
@@ -292,7 +292,7 @@ TEST_CASE("every state of a draw gives what the reference gives") {
             static_cast<std::int32_t>(random.between(0, 80)),
             static_cast<std::int32_t>(random.between(0, 80))};
       }
-      Command& draw = builder.draw(random_triangles(random, 64, 20));
+      Command& draw = builder.draw(window_triangles(random, 64, 20));
       draw.depth_func = static_cast<DepthFunc>(random.between(0, 7));
       const bool test = random.between(0, 4) != 0;
       draw.flags = test ? bits({Flag::kDepthTest}) : 0;

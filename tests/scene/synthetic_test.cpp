@@ -7,7 +7,7 @@
 #include <set>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/numerics/split_mix.hpp"
 #include "halfspace/scene/load.hpp"

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "halfspace/machine/functional.hpp"
+#include "../result_difference.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
@@ -67,6 +68,10 @@ void check_frame(const std::string& name) {
     const Config config = read_config(fs::path(HALFSPACE_CONFIGS) / (std::string(machine) + ".toml"));
     validate(config);
     const FrameResult functional = run_functional(frame, config);
+    const Watch visible{.keep_visible = true};
+    const Watch readable{.keep_visible = true, .core = Core::kReadable};
+    CHECK(halfspace::testing::result_difference(run_functional(frame, config, visible),
+                                                run_functional(frame, config, readable)) == "");
     const EngineOptions options{.watch = {}, .stalls = {}, .packet_times = true};
     const TimedResult recurrence = run_recurrence(frame, config, options);
     const TimedResult systemc = run_systemc(frame, config, options);

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "differences.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/scene/ptf.hpp"
 #include "halfspace/scene/validate.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"

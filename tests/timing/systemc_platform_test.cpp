@@ -7,7 +7,7 @@
 #include <systemc>
 #include <tlm>
 
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/timing/systemc/raster_pipeline.hpp"
 #include "halfspace/timing/systemc/simple_memory.hpp"
 #include "halfspace/timing/systemc/simulation_context.hpp"

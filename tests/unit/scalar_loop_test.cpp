@@ -6,7 +6,7 @@
 
 #include "../frames.hpp"
 #include "../property/random.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/scene/validate.hpp"
 
 using namespace halfspace;

@@ -11,7 +11,7 @@
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
@@ -25,6 +25,7 @@ namespace {
 struct SpeedOptions {
   std::vector<std::string> inputs;
   MachineOptions machine;
+  CoreOption core;
   std::string depth;
   int repeat = 7;
   bool no_llvmpipe = false;
@@ -75,8 +76,12 @@ class SpeedBench {
     const auto nothing = [] {};
     runners_.push_back({.contender = {.name = "functional", .about = "all that `run` does between its files"},
                         .prepare = nothing,
-                        .run = [this] { run_functional(frame_, config_); },
+                        .run = [this] { functional_->run(frame_); },
                         .count = [this] { return count_functional(); }});
+    runners_.push_back({.contender = {.name = "functional_pixels", .about = "and the counts of each pixel"},
+                        .prepare = nothing,
+                        .run = [this] { counts_pixels_->run(frame_); },
+                        .count = [this] { return counts_pixels_->run(frame_).early_z.survivors; }});
     runners_.push_back({.contender = {.name = "scalar_loop",
                                       .yardstick = true,
                                       .about = "bounding boxes pixel by pixel, behind the front end"},
@@ -99,6 +104,8 @@ class SpeedBench {
     }
     for (const std::string& input : options_.all_inputs()) {
       frame_ = options_.frame(input);
+      functional_.emplace(config_, Watch{.count_pixels = false, .core = options_.core.core()});
+      counts_pixels_.emplace(config_, Watch{.core = options_.core.core()});
       loop_.emplace(frame_, config_);
       if (llvmpipe_) {
         llvmpipe_->load(frame_, config_);
@@ -110,7 +117,7 @@ class SpeedBench {
 
  private:
   std::uint64_t count_functional() {
-    counters_ = run_functional(frame_, config_).counters;
+    counters_ = functional_->run(frame_);
     return counters_.early_z.survivors;
   }
 
@@ -158,6 +165,8 @@ class SpeedBench {
 
   // Of the workload at hand.
   Frame frame_;
+  std::optional<FunctionalRuns> functional_;
+  std::optional<FunctionalRuns> counts_pixels_;
   std::optional<ScalarLoop> loop_;
   Counters counters_;  ///< of functional
 };
@@ -197,6 +206,7 @@ void add_bench_speed(CLI::App& bench) {
   speed->add_option("INPUT", options->inputs,
                     "frames, meshes or synthetic:NAME (default: the ten full lists, which take minutes)");
   options->machine.add_to(*speed);
+  options->core.add_to(*speed);
   speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
       ->check(CLI::IsMember({"unorm24", "float32"}))
       ->type_name("FORMAT");

@@ -5,7 +5,7 @@
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/speed/speed_table.hpp"
 #include "halfspace/speed/surface_cost.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"

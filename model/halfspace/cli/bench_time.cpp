@@ -5,7 +5,7 @@
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/options.hpp"
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/timing/analytic/analytic.hpp"

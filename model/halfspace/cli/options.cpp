@@ -147,6 +147,17 @@ Camera InputOptions::camera() const {
 
 Frame InputOptions::frame() const { return load(path, camera()); }
 
+void CoreOption::add_to(CLI::App& command) {
+  command
+      .add_option("--core", name, "implementation of the units: with vectors, or one packet after the other")
+      ->check(CLI::IsMember(std::vector<std::string>(kCoreName.begin(), kCoreName.end())))
+      ->capture_default_str();
+}
+
+Core CoreOption::core() const {
+  return static_cast<Core>(std::ranges::find(kCoreName, name) - kCoreName.begin());
+}
+
 void StallOptions::add_to(CLI::App& command) {
   command
       .add_option("--stall", stalls,

@@ -25,6 +25,14 @@ struct MachineOptions {
   [[nodiscard]] Config config() const;  ///< throws InputError
 };
 
+/// --core.
+struct CoreOption {
+  std::string name{kCoreName[0]};
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] Core core() const;
+};
+
 /// INPUT and, for meshes, the camera.
 struct InputOptions {
   std::string path;

@@ -23,6 +23,7 @@ namespace {
 struct RunCommand {
   InputOptions input;
   MachineOptions machine;
+  CoreOption core;
   StallOptions stalls;
   TimelineOptions timeline;
   std::string fidelity = "functional";
@@ -37,6 +38,7 @@ struct RunCommand {
 
 /// Refuses options that the fidelity does not support.
 void check_fidelity(Fidelity fidelity, const RunCommand& options) {
+  require(fidelity, options.core.core() != Core::kAuto, "--core", &FidelityInfo::core);
   require(fidelity, !options.stalls.stalls.empty(), "--stall", &FidelityInfo::packets);
   require(fidelity, !options.stalls.seed.empty(), "--seed", &FidelityInfo::packets);
   require(fidelity, options.timeline.wanted, "--timeline", &FidelityInfo::timeline);
@@ -100,7 +102,10 @@ int run_command(const RunCommand& command) {
     options.cycle_observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
   }
   RunObserver observer(frame, config, record, command.tile_jobs);
-  options.watch = {.keep_visible = record.sums, .observer = &observer};
+  options.watch = {.keep_visible = record.sums,
+                   .count_pixels = folder.has_value(),
+                   .observer = &observer,
+                   .core = command.core.core()};
   const RunResult result = run(fidelity, frame, config, options);
   observer.finish();
   if (timeline) {
@@ -131,6 +136,7 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_option("--fidelity", options->fidelity, "selects the timing engine")
       ->check(CLI::IsMember(fidelities))
       ->capture_default_str();
+  options->core.add_to(*command);
   options->stalls.add_to(*command);
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for results (default: print only the table)")

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "halfspace/machine/core.hpp"
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
@@ -17,8 +18,8 @@ inline constexpr std::uint32_t kNothingVisible = 0xFFFFFFFFu;
 struct Surface {
   DepthFormat format = DepthFormat::kNone;
   TiledImage<std::uint32_t> codes;      ///< stored depth codes
-  TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535
-  TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535
+  TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535; on request
+  TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535; on request
   /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
   /// where no draw writes depth, the one that passed last. Kept on request.
   TiledImage<std::uint32_t> visible;
@@ -33,6 +34,7 @@ struct DrawStats {
 };
 
 struct FrameResult {
+  Core core = Core::kReadable;    ///< that made it
   std::vector<Surface> surfaces;  ///< by depth surface number
   std::vector<DrawStats> draws;
   Counters counters;                ///< of the whole frame, targets without depth included

@@ -59,6 +59,14 @@ std::optional<SourceItem> FrameSource::next() {
   return std::nullopt;
 }
 
+std::optional<RawTriangles> FrameSource::take_raw() {
+  if (!front_end_) {
+    return std::nullopt;
+  }
+  next_triangle_ = triangle_count_;
+  return RawTriangles{.front_end = &*front_end_, .count = triangle_count_};
+}
+
 void FrameSource::fill_batch() {
   batch_.clear();
   for (std::uint32_t i = 0; i < kFrontEndBatch && next_triangle_ < triangle_count_; ++i) {

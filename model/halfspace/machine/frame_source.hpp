@@ -24,6 +24,12 @@ struct SourceItem {
   std::uint32_t code = 0;                       ///< to this code
 };
 
+/// The triangles of a draw before the front end.
+struct RawTriangles {
+  const FrontEnd* front_end = nullptr;
+  std::uint32_t count = 0;
+};
+
 /// Executes the commands of a frame. All references must outlive it; `result` has its surfaces, `observer`
 /// may be null. Draws are added to `draws` as they begin.
 class FrameSource {
@@ -36,6 +42,9 @@ class FrameSource {
   DrawContext* begin(std::uint32_t command);
   /// The next that the command has to give, never empty, or none: then it is done.
   std::optional<SourceItem> next();
+  /// For who has a front end of his own: the triangles of the draw that has begun, before next(), which then
+  /// gives none of them. None where it is no draw, or one that draws nothing.
+  std::optional<RawTriangles> take_raw();
 
  private:
   void begin_draw(const Command& command, std::uint32_t index);

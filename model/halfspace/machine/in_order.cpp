@@ -66,7 +66,7 @@ class InOrderRun {
         reader_(reader),
         walker_(walker_config(config)),
         quads_(watch.observer, static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {
-    result_.surfaces = make_surfaces(frame, TileSize, watch.keep_visible);
+    result_.surfaces = make_surfaces(frame, TileSize, watch);
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "halfspace/machine/core.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/tile_walker.hpp"
@@ -52,7 +53,9 @@ class PacketObserver {
 /// What a run keeps beside its counts.
 struct Watch {
   bool keep_visible = false;           ///< fill Surface::visible: 4 bytes a pixel more
+  bool count_pixels = true;            ///< fill Surface::fragments and survivors
   PacketObserver* observer = nullptr;  ///< must outlive the run
+  Core core = Core::kAuto;             ///< of the functional engines
 };
 
 }  // namespace halfspace

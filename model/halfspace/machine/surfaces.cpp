@@ -8,27 +8,38 @@ ZCacheShape z_cache_shape(const Config& config) {
   return {.lines = config.z_cache.lines, .ways = config.z_cache.ways, .parts = config.z_cache.parts};
 }
 
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible) {
-  std::vector<Surface> surfaces;
+std::vector<SurfaceShape> surface_shapes(const Frame& frame) {
+  std::vector<SurfaceShape> shapes;
   for (const Target& target : frame.targets) {
     if (target.depth_surface == kNoSurface) {
       continue;
     }
-    if (target.depth_surface >= surfaces.size()) {
-      surfaces.resize(target.depth_surface + 1);
+    if (target.depth_surface >= shapes.size()) {
+      shapes.resize(target.depth_surface + 1);
     }
-    Surface& surface = surfaces[target.depth_surface];
-    const int width = std::max(surface.codes.width(), static_cast<int>(target.width));
-    const int height = std::max(surface.codes.height(), static_cast<int>(target.height));
-    if (width == surface.codes.width() && height == surface.codes.height()) {
-      continue;
+    SurfaceShape& shape = shapes[target.depth_surface];
+    shape = {.format = target.depth_format,
+             .width = std::max(shape.width, static_cast<int>(target.width)),
+             .height = std::max(shape.height, static_cast<int>(target.height))};
+  }
+  return shapes;
+}
+
+std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, const Watch& watch) {
+  std::vector<Surface> surfaces;
+  for (const SurfaceShape& shape : surface_shapes(frame)) {
+    Surface& surface = surfaces.emplace_back();
+    if (shape.width == 0) {
+      continue;  // a number that no target has
     }
-    surface.format = target.depth_format;
-    surface.codes = {width, height, tile_size, largest_code(target.depth_format)};
-    surface.fragments = {width, height, tile_size, 0};
-    surface.survivors = {width, height, tile_size, 0};
-    if (keep_visible) {
-      surface.visible = {width, height, tile_size, kNothingVisible};
+    surface.format = shape.format;
+    surface.codes = {shape.width, shape.height, tile_size, largest_code(shape.format)};
+    if (watch.count_pixels) {
+      surface.fragments = {shape.width, shape.height, tile_size, 0};
+      surface.survivors = {shape.width, shape.height, tile_size, 0};
+    }
+    if (watch.keep_visible) {
+      surface.visible = {shape.width, shape.height, tile_size, kNothingVisible};
     }
   }
   return surfaces;

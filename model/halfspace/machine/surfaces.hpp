@@ -6,6 +6,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/machine/packet_stream.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/z_line.hpp"
@@ -14,8 +15,18 @@ namespace halfspace {
 
 ZCacheShape z_cache_shape(const Config& config);
 
-/// The surfaces before the first command, at depth 1.
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, bool keep_visible);
+struct SurfaceShape {
+  DepthFormat format = DepthFormat::kNone;
+  int width = 0;
+  int height = 0;
+  friend bool operator==(const SurfaceShape&, const SurfaceShape&) = default;
+};
+
+/// Of the depth surfaces of a frame, by number.
+std::vector<SurfaceShape> surface_shapes(const Frame& frame);
+
+/// The surfaces before the first command, at depth 1, with the images that `watch` asks for.
+std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, const Watch& watch);
 
 /// As a packet stream has them.
 std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/scene/frame.hpp"
 

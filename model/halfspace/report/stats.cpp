@@ -136,6 +136,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   json["schema_version"] = kStatsSchemaVersion;
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
   json["fidelity"] = info(fidelity).name;
+  json["core"] = info(fidelity).core ? Json(kCoreName[static_cast<std::size_t>(result.core)]) : Json();
   const std::optional<std::uint64_t> cycles = run.frame_cycles();
   json["cycles"] = cycles ? Json(*cycles) : Json();
   json["seed"] = packets ? Json(stalls.seed) : Json();

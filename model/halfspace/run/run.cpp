@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "halfspace/machine/functional.hpp"
+#include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
@@ -21,6 +21,7 @@ namespace halfspace {
 namespace {
 
 void check_options(Fidelity fidelity, const RunOptions& options) {
+  require(fidelity, options.watch.core != Core::kAuto, "a core of its own", &FidelityInfo::core);
   require(fidelity, options.stalls.any(), "a stall", &FidelityInfo::packets);
   require(fidelity, options.packet_times, "the time of every packet", &FidelityInfo::packets);
   require(fidelity, options.cycle_observer != nullptr, "a timeline", &FidelityInfo::timeline);

@@ -14,17 +14,18 @@
 namespace halfspace {
 
 // clang-format off
-/// F(Identifier, name, packets, timeline, vcd, rtl): a timing engine, and what it supports:
+/// F(Identifier, name, core, packets, timeline, vcd, rtl): a timing engine, and what it supports:
+///   core      it runs on the core that is asked for
 ///   packets   it knows when every packet moves, and stalls can be injected
 ///   timeline  it tells where the cycles go
 ///   vcd       it writes a waveform
 ///   rtl       it runs the verilated SystemVerilog
-#define HALFSPACE_FIDELITIES(F)                            \
-  F(Functional, functional, false, false, false, false)    \
-  F(Analytic,   analytic,   false, false, false, false)    \
-  F(Recurrence, recurrence, true,  true,  false, false)    \
-  F(Systemc,    systemc,    true,  false, true,  false)    \
-  F(Rtl,        rtl,        true,  false, false, true)
+#define HALFSPACE_FIDELITIES(F)                                  \
+  F(Functional, functional, true,  false, false, false, false)    \
+  F(Analytic,   analytic,   true,  false, false, false, false)    \
+  F(Recurrence, recurrence, true,  true,  true,  false, false)    \
+  F(Systemc,    systemc,    false, true,  false, true,  false)    \
+  F(Rtl,        rtl,        false, true,  false, false, true)
 // clang-format on
 
 #define HALFSPACE_FIDELITY(identifier, ...) k##identifier,
@@ -34,6 +35,7 @@ enum class Fidelity : std::uint8_t { HALFSPACE_FIDELITIES(HALFSPACE_FIDELITY) };
 struct FidelityInfo {
   Fidelity fidelity;
   std::string_view name;
+  bool core;
   bool packets;
   bool timeline;
   bool vcd;

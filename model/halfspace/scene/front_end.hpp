@@ -26,6 +26,16 @@ class FrontEnd {
   /// `format` is that of the surface the draw tests against; none leaves z at 0.
   FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits);
 
+  /// Window z is z / w * scale + bias, and lies between least and most.
+  struct Depth {
+    double scale;
+    double bias;
+    double least;
+    double most;
+  };
+  [[nodiscard]] Depth depth() const { return {z_scale_, z_bias_, z_least_, z_most_}; }
+  [[nodiscard]] bool clips_depth() const { return !depth_clamp_; }
+
   /// Appends what triangle `index` of the draw becomes.
   void process(std::uint32_t index, std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
 

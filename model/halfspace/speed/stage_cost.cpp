@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
+#include "halfspace/core/functional.hpp"
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/machine/frame_source.hpp"
-#include "halfspace/machine/functional.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -49,7 +49,7 @@ class PrefixRun {
  public:
   PrefixRun(const Frame& frame, const Config& config)
       : frame_(frame), config_(config), walker_(walker_config(config)) {
-    result_.surfaces = make_surfaces(frame, TileSize, false);
+    result_.surfaces = make_surfaces(frame, TileSize, Watch{});
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));

@@ -53,8 +53,9 @@ class TiledImage {
   [[nodiscard]] bool empty() const { return tiles() == 0; }
 
   /// The values of a tile, to read and write: touches it.
-  [[nodiscard]] Value* tile(int tile_x, int tile_y) {
-    const std::size_t number = tile_number(tile_x, tile_y);
+  [[nodiscard]] Value* tile(int tile_x, int tile_y) { return tile(tile_number(tile_x, tile_y)); }
+  /// Of the tile that is `number` in row order.
+  [[nodiscard]] Value* tile(std::size_t number) {
     if (!touched(number)) [[unlikely]] {
       touch(number);
     }

@@ -1,6 +1,6 @@
 // The smallest user of the library: counts the quads of a frame.
 #include <cstdio>
-#include <halfspace/machine/functional.hpp>
+#include <halfspace/core/functional.hpp>
 #include <halfspace/scene/load.hpp>
 
 int main(int, char** argv) {

@@ -45,7 +45,7 @@ void sink(const TileMask& covered, const TileMask& passed, int tile_x, int tile_
   if (surface == nullptr) {
     return;
   }
-  if (!draw.is_clear()) {
+  if (!draw.is_clear() && !surface->fragments.empty()) {
     count_samples<TileSize>(covered, surface->fragments.tile(tile_x, tile_y));
     count_samples<TileSize>(passed, surface->survivors.tile(tile_x, tile_y));
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "halfspace/machine/in_order.hpp"
+#include "halfspace/core/run_core.hpp"
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace {
@@ -92,7 +92,7 @@ AnalyticResult run_analytic(const Frame& frame, const Config& config, const Watc
   FrameWork work;
   WorkReader reader(work);
   AnalyticResult result;
-  result.frame = run_in_order(frame, config, watch, &reader);
+  result.frame = run_core(frame, config, watch, &reader);
   result.estimate = analytic_frame(work, config);
   return result;
 }

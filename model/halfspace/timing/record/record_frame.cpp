@@ -1,4 +1,4 @@
-#include "halfspace/machine/in_order.hpp"
+#include "halfspace/core/run_core.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
 
 namespace halfspace {
@@ -55,7 +55,7 @@ FrameRecord record_frame(const Frame& frame, const Config& config, PacketObserve
   record.name = frame.name;
   record.config = config;
   RecordReader reader(record);
-  run_in_order(frame, config, {.observer = observer}, &reader);
+  run_core(frame, config, {.observer = observer}, &reader);
   return record;
 }
 

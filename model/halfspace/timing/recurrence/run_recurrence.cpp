@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "halfspace/machine/in_order.hpp"
+#include "halfspace/core/run_core.hpp"
 #include "halfspace/timing/recurrence/core.hpp"
 #include "halfspace/timing/recurrence/cycle_probe.hpp"
 
@@ -83,7 +83,7 @@ TimedResult run_with(const Frame& frame, const Config& config, const EngineOptio
   TimedResult result;
   RecurrenceReader<Stalls, kObserved> reader(config, stalls, options.observer,
                                              options.packet_times ? &result.times : nullptr);
-  result.frame = run_in_order(frame, config, options.watch, &reader);
+  result.frame = run_core(frame, config, options.watch, &reader);
   result.cycles = reader.finish();
   return result;
 }

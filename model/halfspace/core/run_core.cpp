@@ -1,0 +1,31 @@
+#include "halfspace/core/run_core.hpp"
+
+#include <fmt/format.h>
+
+#include "halfspace/fast/fast_core.hpp"
+#include "halfspace/machine/in_order.hpp"
+#include "halfspace/numerics/error.hpp"
+
+namespace halfspace {
+
+Core core_of(const Config& config, const Watch& watch, const StreamReader* reader) {
+  if (watch.core == Core::kReadable) {
+    return Core::kReadable;
+  }
+  const std::string_view gap = fast::gap(config, watch, reader);
+  if (watch.core == Core::kFast && !gap.empty()) {
+    throw InputError(fmt::format("core is 'fast', which does not cover {}; legal: auto, readable", gap));
+  }
+  return gap.empty() ? Core::kFast : Core::kReadable;
+}
+
+FrameResult run_core(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
+  if (core_of(config, watch, reader) == Core::kReadable) {
+    return run_in_order(frame, config, watch, reader);
+  }
+  fast::FastCore core(config, watch);
+  core.run(frame);
+  return core.take();
+}
+
+}  // namespace halfspace

@@ -1,0 +1,378 @@
+#include "halfspace/fast/fast_core.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/front_end_task.hpp"
+#include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/surface_tiles.hpp"
+#include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/frame_source.hpp"
+#include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/sink.hpp"
+#include "halfspace/machine/passage/tile_walker.hpp"
+#include "halfspace/machine/passage/z_lookup.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/surfaces.hpp"
+
+namespace halfspace::fast {
+
+class FastCore::Runner {
+ public:
+  Runner(const Config& config, const Watch& watch)
+      : config_(config),
+        tile_size_(config.tile_walker.tile_size),
+        block_tiles_(config.tile_walker.block_size / config.tile_walker.tile_size),
+        watch_(watch),
+        walker_(walker_config(config)) {}
+
+  void run(const Frame& frame) {
+    begin(frame);
+    FrameSource source(frame, config_, watch_.observer, result_, draws_);
+    for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {
+      DrawContext* const draw = source.begin(i);
+      if (draw != nullptr) {
+        begin(*draw);
+        if (const std::optional<RawTriangles> raw = source.take_raw()) {
+          draw_raw(*raw, frame.commands[i]);
+        }
+      }
+      while (const std::optional<SourceItem> item = source.next()) {
+        if (item->draw == nullptr) {
+          clear(*item);
+        } else {
+          set_up(item->triangles);
+          flush();
+        }
+      }
+    }
+    flush_cache();
+    collect_draws(draws_, result_);
+  }
+
+  [[nodiscard]] const Counters& counters() const { return result_.counters; }
+
+  FrameResult take() {
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      resolve(tile_size_, walker_.sub_pixel_bits, result_.surfaces[i], tiles_[i]);
+    }
+    shape_.clear();
+    return std::move(result_);
+  }
+
+ private:
+  /// Surfaces as they are before the first command, in the memory of the last run where they fit.
+  void begin(const Frame& frame) {
+    frame_ = &frame;
+    std::vector<Surface> surfaces = std::move(result_.surfaces);
+    draws_.clear();
+    result_ = {};
+    result_.core = Core::kFast;
+    std::vector<SurfaceShape> shape = surface_shapes(frame);
+    if (shape == shape_) {
+      result_.surfaces = std::move(surfaces);
+      for (std::size_t i = 0; i < result_.surfaces.size(); ++i) {
+        reset(result_.surfaces[i], tiles_[i]);
+      }
+    } else {
+      shape_ = std::move(shape);
+      tiles_.clear();
+      result_.surfaces = make_surfaces(frame, tile_size_, watch_);
+      for (const Surface& surface : result_.surfaces) {
+        tiles_.emplace_back(surface.codes, block_tiles_, largest_code(surface.format));
+      }
+    }
+    make_cache();
+  }
+
+  void make_cache() {
+    places_ = place_surfaces(result_.surfaces, config_);
+    const ZCacheShape shape = z_cache_shape(config_);
+    const int block_shift = std::countr_zero(static_cast<unsigned>(block_tiles_));
+    by_blocks_ = BlockCache::takes(shape, block_shift);
+    if (!by_blocks_) {
+      tile_cache_ = ZCache(shape, memory_lines(places_, shape));
+      return;
+    }
+    std::vector<BlockSurface> cached;
+    std::uint32_t first = 0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      cached.push_back({.first = first, .blocks = tiles_[i].blocks, .line_bytes = places_[i].line_bytes});
+      first += tiles_[i].blocks;
+    }
+    cached.push_back({.first = first});
+    cache_ = BlockCache(shape, block_shift, std::move(cached));
+  }
+
+  static void reset(Surface& surface, SurfaceTiles& tiles) {
+    surface.counters = {};
+    const PixelRect all{.x_last = surface.codes.width() - 1, .y_last = surface.codes.height() - 1};
+    surface.codes.fill(all, largest_code(surface.format));
+    tiles.clear(largest_code(surface.format));
+    if (!surface.fragments.empty()) {
+      surface.fragments.fill(all, 0);
+      surface.survivors.fill(all, 0);
+    }
+    if (!surface.visible.empty()) {
+      surface.visible.fill(all, kNothingVisible);
+    }
+  }
+
+  void begin(DrawContext& draw) {
+    const bool has_depth = draw.surface != kNoSurface;
+    task_ = {.draw = &draw,
+             .walker = walker_,
+             .tiles = has_depth ? &tiles_[draw.surface] : nullptr,
+             .surface = has_depth ? &result_.surfaces[draw.surface] : nullptr,
+             .counts_pixels = has_depth && !draw.is_clear() && watch_.count_pixels,
+             .cache = has_depth && by_blocks_ ? &cache_ : nullptr,
+             .cached = has_depth && by_blocks_ ? cache_.surfaces[draw.surface] : BlockSurface{},
+             .tile_cache = has_depth && !by_blocks_ ? &tile_cache_ : nullptr,
+             .place = has_depth ? places_[draw.surface] : ZSurface{},
+             .z_parts = config_.z_cache.parts};
+  }
+
+  void flush_cache() {
+    if (by_blocks_) {
+      cache_.flush(result_.flushed_lines, result_.flushed_bytes);
+      return;
+    }
+    tile_cache_.flush([&](std::uint32_t /*slot*/, std::uint32_t /*line*/, std::uint32_t bytes) {
+      ++result_.flushed_lines;
+      result_.flushed_bytes += bytes;
+    });
+  }
+
+  void clear(const SourceItem& item) {
+    clear_surface(result_.surfaces[item.surface], item.code);
+    tiles_[item.surface].clear(item.code);
+    if (by_blocks_) {
+      cache_.clear(cache_.surfaces[item.surface]);
+    } else {
+      tile_cache_.clear(places_[item.surface]);
+    }
+  }
+
+  void draw_raw(const RawTriangles& raw, const Command& command) {
+    DrawContext& draw = *task_.draw;
+    const bool vectors = takes_vectors(draw, command);
+    const FrontEndTask task = vectors ? front_end_task(*raw.front_end, command) : FrontEndTask{};
+    constexpr std::uint32_t kOneByOne = 8;
+    chunk_->first = chunk_->end = 0;
+    for (std::uint32_t next = 0; next < raw.count;) {
+      if (vectors) {
+        next = fast::set_up(task, next, raw.count, *chunk_, *set_up_, draw.counters.front_end,
+                            draw.counters.setup);
+        if (set_up_->count + kOneByOne > SetUpTriangles::kMost) {
+          flush();
+          continue;
+        }
+      }
+      const std::uint32_t end = std::min(next + kOneByOne, raw.count);
+      batch_.clear();
+      for (; next < end; ++next) {
+        raw.front_end->process(next, batch_, draw.counters.front_end);
+      }
+      set_up(batch_);
+    }
+    flush();
+  }
+
+  /// Whether front end and setup have vectors for the draw.
+  static bool takes_vectors(const DrawContext& draw, const Command& command) {
+    const DepthFormat format = draw.setup.depth_format;
+    return !command.has(Flag::kPolygonOffset) &&
+           (format == DepthFormat::kNone || draw.setup.interpolator == DepthInterpolator::kPlane);
+  }
+
+  FrontEndTask front_end_task(const FrontEnd& front_end, const Command& command) const {
+    const DrawContext& draw = *task_.draw;
+    const FrontEnd::Depth depth = front_end.depth();
+    FrontEndTask task;
+    task.vertices = frame_->vertices.data() + command.first_vertex;
+    task.indices = frame_->indices.data() + command.first_index;
+    task.viewport_x = command.viewport.x;
+    task.viewport_y = command.viewport.y;
+    task.viewport_width = command.viewport.z;
+    task.viewport_height = command.viewport.w;
+    task.x_half = command.viewport.z / 2.0;
+    task.y_half = command.viewport.w / 2.0;
+    task.x_centre = command.viewport.x + task.x_half;
+    task.y_centre = command.viewport.y + task.y_half;
+    task.sub_pixels = 1 << walker_.sub_pixel_bits;
+    task.clips_depth = front_end.clips_depth();
+    task.symmetric = command.has(Flag::kNdcZMinusOneToOne);
+    task.has_depth = task_.tiles != nullptr && draw.early_z.test;
+    task.z_scale = depth.scale;
+    task.z_bias = depth.bias;
+    task.z_least = depth.least;
+    task.z_most = depth.most;
+    const DepthFormat format = draw.setup.depth_format;
+    task.is_float = format == DepthFormat::kFloat32;
+    if (task.is_float) {
+      task.least = static_cast<std::int32_t>(draw.setup.limits.least);
+      task.most = static_cast<std::int32_t>(std::min(draw.setup.limits.most, largest_code(format)));
+    } else if (format != DepthFormat::kNone) {
+      task.fraction = vertex_depth_fraction(format);
+      task.depth_one = static_cast<double>(vertex_depth_of_code(format, max_unorm_code(format)));
+      const std::uint32_t most = std::min(draw.setup.limits.most, largest_code(format));
+      task.least = static_cast<std::int32_t>(vertex_depth_of_code(format, draw.setup.limits.least));
+      task.most = static_cast<std::int32_t>(vertex_depth_of_code(format, most));
+    }
+    task.most_extent = ((1 << 30) - 1) / walker_.block_size;
+    task.setup = draw.setup;
+    return task;
+  }
+
+  void set_up(std::span<const ScreenTriangle> triangles) {
+    const bool has_depth = task_.tiles != nullptr && task_.draw->early_z.test;
+    for (const ScreenTriangle& in : triangles) {
+      SetupTriangle out;
+      if (!passage::setup(in, *task_.draw, out)) {
+        continue;
+      }
+      if (raster_takes(out, walker_)) {
+        set_up_->append(out, *task_.draw, walker_.sub_pixel_bits, has_depth);
+        if (set_up_->count == SetUpTriangles::kMost) {
+          flush();
+        }
+        continue;
+      }
+      flush();
+      tile_size_ == 4 ? draw_by_units<4>(out) : draw_by_units<8>(out);
+    }
+  }
+
+  /// Draws what is set up.
+  void flush() {
+    raster(tile_size_, task_, *set_up_);
+    set_up_->clear();
+    if (task_.tiles != nullptr && task_.tiles->planes.size() > kMostPlanes) {
+      resolve(tile_size_, walker_.sub_pixel_bits, *task_.surface, *task_.tiles);
+      task_.tiles->forget_planes();
+    }
+  }
+
+  /// The units themselves, on the fast core's surfaces.
+  template <int TileSize>
+  void draw_by_units(const SetupTriangle& triangle) {
+    passage::TileWalker walker(walker_);
+    DrawContext& draw = *task_.draw;
+    walker.walk<TileSize>(triangle, draw, [&](const TileJob& job, TileWork work, std::uint32_t /*steps*/) {
+      const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, draw);
+      if (!any(coverage.mask)) {
+        return;
+      }
+      const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
+      std::uint32_t* stored = nullptr;
+      std::size_t at = 0;
+      if (task_.surface != nullptr) {
+        stored = task_.surface->codes.tile(job.tile_x, job.tile_y);
+        task_.tiles->open(
+            task_.tiles->block(static_cast<std::uint32_t>(job.tile_x >> task_.tiles->block_shift),
+                               static_cast<std::uint32_t>(job.tile_y >> task_.tiles->block_shift)));
+        at = task_.tiles->index(job.tile_x, job.tile_y);
+        if (task_.tiles->plane[at] != kResolved) {
+          resolve(tile_size_, walker_.sub_pixel_bits, *task_.surface, *task_.tiles);
+        }
+      }
+      TileCodes<TileSize> codes;
+      const TileMask passed = passage::z_test<TileSize>(triangle, burst, draw, stored, codes);
+      if (task_.surface != nullptr) {
+        const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize);
+        task_.tiles->z_min[at] = static_cast<std::int32_t>(*least);
+        task_.tiles->z_max[at] = static_cast<std::int32_t>(*most);
+        if (task_.counts_pixels || draw.keeps_visible) {
+          passage::sink<TileSize>(coverage.mask, passed, job.tile_x, job.tile_y, triangle.triangle, draw,
+                                  task_.surface);
+        }
+      }
+      if (touches_depth(draw.early_z)) {
+        const int parts = config_.z_cache.parts;
+        look_up(job.tile_x, job.tile_y, parts_of_mask<TileSize>(coverage.mask, parts),
+                draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0});
+      }
+    });
+  }
+
+  /// Lines of a tile, a bit a part.
+  void look_up(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written) {
+    if (!by_blocks_) {
+      passage::count_z_cache(*task_.draw, touched,
+                             tile_cache_.access(task_.place, tile_x, tile_y, touched, written));
+      return;
+    }
+    const SurfaceTiles& tiles = *task_.tiles;
+    const std::uint32_t block_x = tile_x >> tiles.block_shift;
+    const std::uint32_t block_y = tile_y >> tiles.block_shift;
+    const std::uint32_t block = tiles.block(block_x, block_y);
+    const auto in_block = static_cast<std::uint32_t>(
+        tiles.index(static_cast<int>(tile_x), static_cast<int>(tile_y)) - block * tiles.entries);
+    const CachePlace place = cache_.place(task_.cached, block, block_x, block_y, in_block / kLanes);
+    EarlyZCounters& counters = task_.draw->counters.early_z;
+    ++counters.z_bursts;
+    for (int part = 0; part < cache_.parts; ++part) {
+      if ((touched >> part & 1) != 0) {
+        access_line(cache_, place, part, static_cast<int>(in_block % kLanes), (written >> part & 1) != 0,
+                    counters);
+      }
+    }
+  }
+
+  /// Of a surface; with more, its tiles are resolved.
+  static constexpr std::size_t kMostPlanes = 1 << 16;
+
+  const Frame* frame_ = nullptr;
+  Config config_;
+  int tile_size_;
+  int block_tiles_;  ///< on a side
+  Watch watch_;
+  WalkerConfig walker_;
+  FrameResult result_;
+  std::vector<SurfaceShape> shape_;  ///< that result_ has
+  std::vector<SurfaceTiles> tiles_;
+  std::deque<DrawContext> draws_;
+  bool by_blocks_ = false;  ///< the z cache is cache_, else tile_cache_
+  BlockCache cache_;
+  ZCache tile_cache_;
+  std::vector<ZSurface> places_;
+  RasterTask task_;
+  std::vector<ScreenTriangle> batch_;
+  std::unique_ptr<VertexChunk> chunk_ = std::make_unique<VertexChunk>();
+  std::unique_ptr<SetUpTriangles> set_up_ = std::make_unique<SetUpTriangles>();
+};
+
+FastCore::FastCore(const Config& config, const Watch& watch)
+    : runner_(std::make_unique<Runner>(config, watch)) {}
+FastCore::~FastCore() = default;
+FastCore::FastCore(FastCore&&) noexcept = default;
+
+void FastCore::run(const Frame& frame) { runner_->run(frame); }
+const Counters& FastCore::counters() const { return runner_->counters(); }
+FrameResult FastCore::take() { return runner_->take(); }
+
+std::string_view gap(const Config& config, const Watch& watch, const StreamReader* reader) {
+  if (reader != nullptr) {
+    return "time";
+  }
+  if (config.tile_walker.tile_size > 8) {
+    return "tile_walker.tile_size = 16";
+  }
+  if (!config.tile_walker.block_level) {
+    return "tile_walker.block_level = false";
+  }
+  const PacketObserver* const observer = watch.observer;
+  const bool shows = observer != nullptr &&
+                     (observer->wants_quads() || observer->wants_decisions() || observer->wants_tile_jobs());
+  return shows ? "a run whose packets are recorded" : "";
+}
+
+}  // namespace halfspace::fast

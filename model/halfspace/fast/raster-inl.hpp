@@ -1,0 +1,132 @@
+// Without a guard that stops a second inclusion: once for each target of Highway.
+#if defined(HALFSPACE_FAST_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HALFSPACE_FAST_RASTER_INL
+#undef HALFSPACE_FAST_RASTER_INL
+#else
+#define HALFSPACE_FAST_RASTER_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "halfspace/fast/early_z-inl.hpp"
+#include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/small-inl.hpp"
+#include "halfspace/fast/tallies.hpp"
+#include "halfspace/fast/walk-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::fast::HWY_NAMESPACE {
+namespace {
+
+template <int TileSize>
+class Raster {
+ public:
+  explicit Raster(const RasterTask& task)
+      : task_(task),
+        walk_(task),
+        early_z_(task, tallies_),
+        small_(task, tallies_),
+        takes_small_(Small<TileSize>::takes(task)) {}
+
+  void triangles(const SetUpTriangles& in) {
+    const auto flush = [this] { test(); };
+    for (std::size_t i = 0; i < in.count;) {
+      const std::size_t room = std::min(static_cast<std::size_t>(kWidth), in.count - i);
+      const std::size_t small =
+          takes_small_
+              ? std::min(static_cast<std::size_t>(std::countr_one(Windows<TileSize>::among(in, i))), room)
+              : 0;
+      if (small >= kFewSmall) {
+        test();
+        small_.triangles(in, i, small);
+        i += small;
+        continue;
+      }
+      for (const std::size_t end = i + std::max<std::size_t>(small, 1); i < end; ++i) {
+        one(in, i, flush);
+      }
+    }
+    test();
+    small_.tally();
+    tallies_.add_to(*task_.draw, Walk<TileSize>::kSamples / 4);
+  }
+
+ private:
+  /// Fewer in a row are drawn one by one.
+  static constexpr std::size_t kFewSmall = std::min(4, kWidth);
+
+  template <class Flush>
+  HWY_INLINE void one(const SetUpTriangles& in, std::size_t i, Flush&& flush) {
+    if (triangle_count_ == triangles_.size()) {
+      test();
+      triangle_count_ = 0;
+    }
+    Triangle& t = triangles_[triangle_count_++];
+    load_edges<TileSize>(in, i, task_.walker.block_size, t);
+    load_depth<TileSize>(in, i, task_, t);
+    walk_.triangle(t, flush);
+  }
+
+  void test() {
+    for (std::size_t i = 0; i < walk_.visits(); ++i) {
+      early_z_.visit(walk_.visit(i), walk_.masks(walk_.visit(i)));
+    }
+    walk_.clear();
+  }
+
+  const RasterTask& task_;
+  Walk<TileSize> walk_;
+  Tallies tallies_;
+  EarlyZ<TileSize> early_z_;
+  Small<TileSize> small_;
+  bool takes_small_;
+  std::array<Triangle, Walk<TileSize>::kMostTriangles> triangles_;
+  std::size_t triangle_count_ = 0;
+};
+
+inline void raster_4(const RasterTask& task, const SetUpTriangles& triangles) {
+  Raster<4>(task).triangles(triangles);
+}
+inline void raster_8(const RasterTask& task, const SetUpTriangles& triangles) {
+  Raster<8>(task).triangles(triangles);
+}
+
+template <int TileSize>
+void resolve_tiles(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
+  const int side = 1 << tiles.block_shift;
+  for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
+    if (tiles.opened[block] != tiles.epoch) {
+      continue;
+    }
+    const int first_x = static_cast<int>(block % tiles.blocks_x) * side;
+    const int first_y = static_cast<int>(block / tiles.blocks_x) * side;
+    for (int i = 0; i < side * side; ++i) {
+      std::uint32_t& plane = tiles.plane[block * tiles.entries + static_cast<std::size_t>(i)];
+      if (plane != kResolved) {
+        const int x = first_x + i % side;
+        const int y = first_y + i / side;
+        make_codes<TileSize>(tiles.planes[plane], tiles, surface.format, sub_pixel_bits, x, y,
+                             surface.codes.tile(x, y));
+        plane = kResolved;
+      }
+    }
+  }
+}
+
+inline void resolve_4(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
+  resolve_tiles<4>(sub_pixel_bits, surface, tiles);
+}
+inline void resolve_8(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
+  resolve_tiles<8>(sub_pixel_bits, surface, tiles);
+}
+
+}  // namespace
+}  // namespace halfspace::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,48 @@
+/// The kernels of the fast core: tile walker, edge evaluator, quad generator and early_z of one triangle
+/// after the other, with the blocks of a row, the tiles of a block or the samples of a tile in the lanes of a
+/// vector. One version an instruction set.
+#pragma once
+
+#include <cstdint>
+
+#include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/set_up.hpp"
+#include "halfspace/fast/surface_tiles.hpp"
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/z_cache.hpp"
+
+namespace halfspace::fast {
+
+/// A draw, and what its triangles work on. `tiles` and `surface` are null where the target has no depth.
+struct RasterTask {
+  DrawContext* draw = nullptr;
+  WalkerConfig walker;
+  SurfaceTiles* tiles = nullptr;
+  Surface* surface = nullptr;
+  bool counts_pixels = false;
+  BlockCache* cache = nullptr;   ///< the z cache, or null where it is too small to go by blocks
+  BlockSurface cached;           ///< the surface's blocks
+  ZCache* tile_cache = nullptr;  ///< else the z cache, and the surface's tiles
+  ZSurface place;
+  int z_parts = 1;
+};
+
+/// Whether raster() takes `triangle`: its steps must fit the vectors' integers.
+bool raster_takes(const SetupTriangle& triangle, const WalkerConfig& walker);
+
+/// Draws triangles, all of which it takes. `tile_size` is 4 or 8.
+void raster(int tile_size, const RasterTask& task, const SetUpTriangles& triangles);
+
+/// Makes the codes of all tiles of a surface that are planes.
+void resolve(int tile_size, int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles);
+
+/// Codes of a tile by the units, from an equation of the interpolator `plane`. `codes`: TileSize^2, in row
+/// order.
+template <int TileSize>
+void codes_by_units(const DepthEquation& equation, DepthFormat format, int sub_pixel_bits, int tile_x,
+                    int tile_y, std::uint32_t* codes);
+
+}  // namespace halfspace::fast

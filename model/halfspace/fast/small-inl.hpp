@@ -1,0 +1,407 @@
+// Without a guard that stops a second inclusion: once for each target of Highway.
+#if defined(HALFSPACE_FAST_SMALL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HALFSPACE_FAST_SMALL_INL
+#undef HALFSPACE_FAST_SMALL_INL
+#else
+#define HALFSPACE_FAST_SMALL_INL
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/codes-inl.hpp"
+#include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/tallies.hpp"
+#include "halfspace/fast/windows-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::fast::HWY_NAMESPACE {
+namespace {
+
+/// Small triangles, one a lane: all stages of the pipe at once.
+template <int TileSize>
+class Small {
+ public:
+  static constexpr int kSide = Windows<TileSize>::kSide;
+
+  explicit Small(const RasterTask& task, Tallies& tallies)
+      : task_(task),
+        state_(task.draw->early_z),
+        counters_(task.draw->counters),
+        tallies_(tallies),
+        windows_(task, tallies),
+        found_(windows_.found),
+        fraction_(vertex_depth_fraction(task.draw->early_z.format)),
+        touches_depth_(touches_depth(task.draw->early_z)) {}
+
+  /// Adds what was counted in vectors to the tallies.
+  void tally() { windows_.tally(); }
+
+  /// Draws whose small triangles it takes: what watches is shown fragments that are tested.
+  static bool takes(const RasterTask& task) {
+    const EarlyZState& state = task.draw->early_z;
+    const bool watches = task.counts_pixels || task.draw->keeps_visible;
+    return task.tile_cache == nullptr && task.z_parts == 1 &&
+           (!watches || (state.test && state.func != DepthFunc::kNever));
+  }
+
+  /// Draws `count` small triangles, at most kWidth.
+  void triangles(const SetUpTriangles& in, std::size_t first, std::size_t count) {
+    in_ = &in;
+    first_ = first;
+    windows_.look_at(in, first, count);
+    if (found_.hit == 0) {
+      return;
+    }
+    list_bursts();
+    if (state_.func == DepthFunc::kNever && state_.test) {
+      alive_ = 0;
+    } else if (state_.test) {
+      load_depth();
+      test();
+    } else {
+      pass_all();
+    }
+    finish();
+  }
+
+ private:
+  static HWY_INLINE Vector field(const SetUpTriangles::Field<std::int32_t>& values, std::size_t at) {
+    return hn::LoadU(Tag(), values.data() + at);
+  }
+  static HWY_INLINE std::uint64_t ones(std::uint32_t bits) {
+    return static_cast<std::uint64_t>(std::popcount(bits));
+  }
+
+  // ---- early_z ----
+
+  /// Calls visit(id, tile of the window, lane) for bits of bursts.
+  template <class Visit>
+  static HWY_INLINE void for_bursts(std::uint64_t bits, Visit&& visit) {
+    for (std::uint64_t left = bits; left != 0; left &= left - 1) {
+      const auto id = static_cast<std::size_t>(std::countr_zero(left));
+      visit(id, id % 4, id / 4);
+    }
+  }
+
+  /// A burst is a tile of a triangle of which a sample is covered.
+  void list_bursts() {
+    const Tag tag;
+    fragments_ = 0;
+    burst_bits_ = 0;
+    for (unsigned q = 0; q < 4; ++q) {
+      burst_bits_ |= every_fourth(found_.covered[q]) << q;
+    }
+    const Vector iota = hn::Iota(tag, 0);
+    const std::uint32_t lines = state_.test ? 1 : 0;
+    for_bursts(burst_bits_, [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
+      // Its samples, with the burst.
+      const auto mask = static_cast<std::uint32_t>(found_.mask[q][lane]);
+      const Vector tagged = hn::Or(iota, set(static_cast<std::int32_t>(id << 4)));
+      for (int i = 0; i < kSide * kSide; i += kWidth) {
+        const std::uint32_t bits = mask >> i & ((1u << kWidth) - 1);
+        hn::StoreU(hn::Compress(hn::Add(tagged, set(i)), mask_of(bits)), tag, fragment_ + fragments_);
+        fragments_ += static_cast<std::size_t>(std::popcount(bits));
+      }
+      if (lines != 0) {
+        task_.tiles->open(static_cast<std::uint32_t>(found_.block[q][lane]));
+        const std::uint32_t* const tile =
+            task_.surface->codes.tile(static_cast<std::size_t>(found_.tile[q][lane]));
+        const int row = in_->y_first[first_ + lane] & (TileSize - 2);
+        hwy::Prefetch(tile + row * TileSize);
+        hwy::Prefetch(tile + std::min(row + 2, TileSize - 2) * TileSize);
+      }
+    });
+  }
+
+  /// Bit i becomes bit 4 i, of 16.
+  static HWY_INLINE std::uint64_t every_fourth(std::uint64_t bits) {
+    bits = (bits | bits << 24) & 0x000000FF000000FFu;
+    bits = (bits | bits << 12) & 0x000F000F000F000Fu;
+    bits = (bits | bits << 6) & 0x0303030303030303u;
+    return (bits | bits << 3) & 0x1111111111111111u;
+  }
+
+  /// Without a test.
+  void pass_all() {
+    tallies_.survivors += fragments_;
+    alive_ = burst_bits_;
+  }
+
+  /// Words at the quads of the windows, and their steps.
+  void load_depth() {
+    const Vector kind = field(in_->kind, first_);
+    const auto is_short = hn::Eq(kind, set(static_cast<std::int32_t>(DepthKind::kShort)));
+    const QuadWords low = quad_words(0);
+    const QuadWords high = kWidth > 1 ? quad_words(kWideWidth) : low;
+    const auto keep = [&](WideVector first, WideVector second, std::int32_t* to) HWY_ATTR {
+      hn::Store(hn::IfThenElseZero(is_short, narrow(first, second)), Tag(), to);
+    };
+    for (std::size_t q = 0; q < 4; ++q) {
+      keep(low.origin[q], high.origin[q], origin_[q]);
+    }
+    keep(low.step_x, high.step_x, step_x_);
+    keep(low.step_y, high.step_y, step_y_);
+  }
+
+  /// Words modulo 2^64, of which the low half counts.
+  struct QuadWords {
+    WideVector origin[4];
+    WideVector step_x;
+    WideVector step_y;
+  };
+
+  /// Of kWideWidth windows. tile_plane (units/depth_plane.hpp), which ShortWords does for a tile.
+  HWY_INLINE QuadWords quad_words(int first) const {
+    const WideTag wide;
+    const hn::Rebind<std::int32_t, WideTag> half_tag;
+    const int s = state_.sub_pixel_bits;
+    const std::size_t at = first_ + static_cast<std::size_t>(first);
+    const auto whole = [&](const SetUpTriangles::Field<std::int32_t>& values)
+                           HWY_ATTR { return hn::PromoteTo(wide, hn::LoadU(half_tag, values.data() + at)); };
+    const auto wide_field = [&](const auto& values) HWY_ATTR {
+      return hn::LoadU(wide, reinterpret_cast<const std::int64_t*>(values.data()) + at);
+    };
+    const WideVector dx = wide_field(in_->dx);
+    const WideVector dy = wide_field(in_->dy);
+    const WideVector half_pixel = hn::Set(wide, std::int64_t{1} << (s - 1));
+    const WideVector half = hn::Set(wide, static_cast<std::int64_t>(ShortWords::kHalf));
+    const WideVector square = hn::Set(wide, ~std::int64_t{kAnchorSize - 1});
+    const WideVector even = hn::Set(wide, ~std::int64_t{1});
+    const WideVector px = hn::And(whole(in_->x_first), even);
+    const WideVector py = hn::And(whole(in_->y_first), even);
+    // From the vertex to the first pixel of the square of kAnchorSize that the window begins on.
+    const auto from_vertex = [&](WideVector pixel,
+                                 const SetUpTriangles::Field<std::int32_t>& vertex) HWY_ATTR {
+      return hn::Add(hn::ShiftLeftSame(hn::And(pixel, square), s), hn::Sub(half_pixel, whole(vertex)));
+    };
+    const WideVector anchor =
+        hn::Add(hn::Add(hn::ShiftLeft<kGradientFraction>(wide_field(in_->z)), half),
+                hn::Add(hn::Mul(dx, from_vertex(px, in_->x)), hn::Mul(dy, from_vertex(py, in_->y))));
+    const auto step = [&](WideVector gradient) HWY_ATTR {
+      return hn::ShiftRight<kGradientFraction>(hn::Add(hn::ShiftLeftSame(gradient, s), half));
+    };
+    QuadWords words{.origin = {}, .step_x = step(dx), .step_y = step(dy)};
+    const WideVector added = wide_field(in_->added);
+    // In one direction: what the square of the window's second half has more, and the steps from it.
+    struct Half {
+      WideVector anchor;
+      WideVector steps;
+    };
+    const auto half_of = [&](WideVector pixel, std::int64_t more, WideVector gradient,
+                             WideVector steps) HWY_ATTR {
+      const WideVector there = hn::Add(pixel, hn::Set(wide, more));
+      const auto same = hn::Eq(hn::And(there, square), hn::And(pixel, square));
+      const WideVector next = hn::ShiftLeftSame(gradient, s + std::countr_zero(unsigned{kAnchorSize}));
+      return Half{hn::IfThenZeroElse(same, next), hn::Mul(hn::AndNot(square, there), steps)};
+    };
+    const Half right[2] = {half_of(px, 0, dx, words.step_x), half_of(px, 2, dx, words.step_x)};
+    const Half down[2] = {half_of(py, 0, dy, words.step_y), half_of(py, 2, dy, words.step_y)};
+    for (std::size_t q = 0; q < 4; ++q) {
+      const WideVector word = hn::Add(anchor, hn::Add(right[q & 1].anchor, down[q >> 1].anchor));
+      words.origin[q] = hn::Add(hn::Add(hn::ShiftRight<kGradientFraction>(word), added),
+                                hn::Add(right[q & 1].steps, down[q >> 1].steps));
+    }
+    return words;
+  }
+
+  /// Tests the fragments of all bursts, kWidth at a time.
+  void test() {
+    resolve_tiles();
+    alive_ = 0;
+    for (std::size_t i = 0; i < fragments_; i += static_cast<std::size_t>(kWidth)) {
+      test_vector(i, std::min(static_cast<std::size_t>(kWidth), fragments_ - i));
+    }
+  }
+
+  void resolve_tiles() {
+    SurfaceTiles& tiles = *task_.tiles;
+    for_bursts(burst_bits_, [&](std::size_t /*id*/, std::size_t q, std::size_t lane) HWY_ATTR {
+      const auto at = static_cast<std::size_t>(found_.at[q][lane]);
+      if (tiles.plane[at] != kResolved) [[unlikely]] {
+        const int number = found_.tile[q][lane];
+        const int across = task_.surface->codes.tiles_x();
+        make_codes<TileSize>(tiles.planes[tiles.plane[at]], tiles, state_.format, state_.sub_pixel_bits,
+                             number % across, number / across,
+                             task_.surface->codes.tile(static_cast<std::size_t>(number)));
+        tiles.plane[at] = kResolved;
+      }
+    });
+  }
+
+  HWY_INLINE void test_vector(std::size_t first, std::size_t count) {
+    const Tag tag;
+    constexpr int kTileShift = TileSize == 8 ? 3 : 2;
+    const Vector inactive = set(0);
+    const auto active = hn::FirstN(tag, count);
+    const Vector fragment = hn::IfThenElse(active, hn::LoadU(tag, fragment_ + first), inactive);
+    const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
+    const auto of_lane = [&](const std::int32_t* values)
+                             HWY_ATTR { return hn::TableLookupLanes(hn::Load(tag, values), lane); };
+    const Vector column = hn::And(fragment, set(3));
+    const Vector row = hn::And(hn::ShiftRight<2>(fragment), set(3));
+    // Word, code.
+    const auto right = hn::Ne(hn::And(column, set(2)), hn::Zero(tag));
+    const auto down = hn::Ne(hn::And(row, set(2)), hn::Zero(tag));
+    const Vector origin =
+        hn::IfThenElse(down, hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
+                       hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
+    const auto odd = [&](Vector v) HWY_ATTR { return hn::Ne(hn::And(v, set(1)), hn::Zero(tag)); };
+    const Vector word = hn::Add(origin, hn::Add(hn::IfThenElseZero(odd(column), of_lane(step_x_)),
+                                                hn::IfThenElseZero(odd(row), of_lane(step_y_))));
+    const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values)
+                                HWY_ATTR { return hn::TableLookupLanes(field(values, first_), lane); };
+    const Vector code =
+        hn::Min(hn::Max(hn::ShiftRightSame(word, fraction_), lane_field(in_->low)), lane_field(in_->high));
+    // Where it is stored.
+    const Vector x = hn::Add(hn::TableLookupLanes(found_.x, lane), column);
+    const Vector y = hn::Add(hn::TableLookupLanes(found_.y, lane), row);
+    const Vector tile =
+        hn::Add(hn::Mul(hn::ShiftRightSame(y, kTileShift), set(task_.surface->codes.tiles_x())),
+                hn::ShiftRightSame(x, kTileShift));
+    const Vector side = set(TileSize - 1);
+    const Vector index = hn::Add(hn::ShiftLeftSame(tile, 2 * kTileShift),
+                                 hn::Add(hn::ShiftLeftSame(hn::And(y, side), kTileShift), hn::And(x, side)));
+    auto* const stored = reinterpret_cast<std::int32_t*>(task_.surface->codes.tile(0));
+    alignas(64) std::int32_t at[kWidth];
+    alignas(64) std::int32_t codes[kWidth];
+    hn::Store(index, tag, at);
+    hn::Store(code, tag, codes);
+    if (conflicts(index, count)) {
+      one_by_one(first, count, at, codes, stored);
+      return;
+    }
+    const auto pass = hn::And(active, compare(state_.func, code, hn::GatherIndex(tag, stored, index)));
+    const std::uint32_t bits = bits_of(pass);
+    tallies_.survivors += ones(bits);
+    for (std::uint32_t left = bits; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      passed(fragment_[first + i], at[i], codes[i], stored);
+    }
+    watch(first, count, bits, at);
+  }
+
+  HWY_INLINE void passed(std::int32_t fragment, std::int32_t at, std::int32_t code, std::int32_t* stored) {
+    alive_ |= std::uint64_t{1} << (fragment >> 4);
+    if (state_.write) {
+      stored[at] = code;
+    }
+  }
+
+  /// Whether two of the first lanes are equal.
+  static HWY_INLINE bool conflicts(Vector index, std::size_t count) {
+    const Tag tag;
+    if (kWidth == 1) {
+      return false;
+    }
+    alignas(64) std::int32_t twice[2 * kWidth];
+    // Lanes behind the last differ from all others.
+    const Vector own =
+        hn::IfThenElse(hn::FirstN(tag, count), index, hn::Sub(hn::Zero(tag), hn::Iota(tag, 1)));
+    hn::Store(own, tag, twice);
+    hn::Store(own, tag, twice + kWidth);
+    auto same = hn::FirstN(tag, 0);
+    for (int i = 1; i <= kWidth / 2; ++i) {
+      same = hn::Or(same, hn::Eq(own, hn::LoadU(tag, twice + i)));
+    }
+    return bits_of(same) != 0;
+  }
+
+  void one_by_one(std::size_t first, std::size_t count, const std::int32_t* at, const std::int32_t* codes,
+                  std::int32_t* stored) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (depth_passes(state_.func, static_cast<std::uint32_t>(codes[i]),
+                       static_cast<std::uint32_t>(stored[at[i]]))) {
+        bits |= 1u << i;
+        passed(fragment_[first + i], at[i], codes[i], stored);
+      }
+    }
+    tallies_.survivors += ones(bits);
+    watch(first, count, bits, at);
+  }
+
+  // ---- what follows ----
+
+  HWY_INLINE void watch(std::size_t first, std::size_t count, std::uint32_t bits, const std::int32_t* at) {
+    if (!task_.counts_pixels && !task_.draw->keeps_visible) {
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool pass = (bits >> i & 1) != 0;
+      const auto tile = static_cast<std::size_t>(at[i]) / (TileSize * TileSize);
+      const int sample = at[i] & (TileSize * TileSize - 1);
+      if (task_.counts_pixels) {
+        std::uint16_t& fragments = task_.surface->fragments.tile(tile)[sample];
+        std::uint16_t& survivors = task_.surface->survivors.tile(tile)[sample];
+        fragments = static_cast<std::uint16_t>(fragments + (fragments != 0xFFFF ? 1 : 0));
+        survivors = static_cast<std::uint16_t>(survivors + (pass && survivors != 0xFFFF ? 1 : 0));
+      }
+      if (task_.draw->keeps_visible && pass) {
+        const auto number = static_cast<std::uint32_t>(
+            in_->number[first_ + static_cast<std::size_t>(fragment_[first + i] >> 6)]);
+        task_.surface->visible.tile(tile)[sample] =
+            task_.draw->is_clear() ? kNothingVisible : task_.draw->first_triangle + number;
+      }
+    }
+  }
+
+  void finish() {
+    counters_.early_z.tiles_killed += static_cast<std::uint64_t>(std::popcount(burst_bits_ & ~alive_));
+    if (!touches_depth_) {
+      return;
+    }
+    counters_.early_z.z_bursts += static_cast<std::uint64_t>(std::popcount(burst_bits_));
+    SurfaceTiles& tiles = *task_.tiles;
+    BlockCache& cache = *task_.cache;
+    for_bursts(burst_bits_, [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
+      const bool written = state_.write && (alive_ >> id & 1) != 0;
+      if (written) {
+        const auto at = static_cast<std::size_t>(found_.at[q][lane]);
+        tiles.z_min[at] = std::min(tiles.z_min[at], in_->low[first_ + lane]);
+        tiles.z_max[at] = std::max(tiles.z_max[at], in_->high[first_ + lane]);
+      }
+      const std::uint32_t block = task_.cached.first + static_cast<std::uint32_t>(found_.block[q][lane]);
+      const auto entry = static_cast<std::size_t>(found_.entry[q][lane]);
+      const CachePlace place{.block = block,
+                             .line_bytes = task_.cached.line_bytes,
+                             .entry = entry & ~std::size_t{kLanes - 1},
+                             .word = block * cache.groups + (entry / kLanes & (cache.groups - 1))};
+      access_line(cache, place, 0, static_cast<int>(entry % kLanes), written, counters_.early_z);
+    });
+  }
+
+  const RasterTask& task_;
+  const EarlyZState& state_;
+  Counters& counters_;
+  Tallies& tallies_;
+  Windows<TileSize> windows_;
+  const WindowBatch& found_;
+  const int fraction_;
+  const bool touches_depth_;
+
+  // Of the batch.
+  const SetUpTriangles* in_ = nullptr;
+  std::size_t first_ = 0;
+  alignas(64) std::int32_t origin_[4][kWidth];  ///< by quad of the window
+  alignas(64) std::int32_t step_x_[kWidth];
+  alignas(64) std::int32_t step_y_[kWidth];
+
+  // Bursts are numbered 4 * lane + tile, their samples 16 * burst + bit.
+  std::uint64_t burst_bits_ = 0;
+  std::uint64_t alive_ = 0;  ///< bursts of which a sample passed
+  alignas(64) std::int32_t fragment_[kSide * kSide * kLanes + kLanes];
+  std::size_t fragments_ = 0;
+};
+
+}  // namespace
+}  // namespace halfspace::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

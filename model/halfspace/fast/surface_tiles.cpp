@@ -1,0 +1,38 @@
+#include "halfspace/fast/surface_tiles.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace halfspace::fast {
+
+SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code)
+    : block_shift(std::countr_zero(static_cast<unsigned>(block_tiles))),
+      blocks_x(static_cast<std::uint32_t>((codes.tiles_x() + block_tiles - 1) / block_tiles)),
+      blocks(blocks_x * static_cast<std::uint32_t>((codes.tiles_y() + block_tiles - 1) / block_tiles)),
+      entries(static_cast<std::size_t>(std::max(block_tiles * block_tiles, kLanes))),
+      z_min(unset_array<std::int32_t>(blocks * entries)),
+      z_max(unset_array<std::int32_t>(blocks * entries)),
+      plane(unset_array<std::uint32_t>(blocks * entries)),
+      opened(zeroed_array<std::uint8_t>(blocks)) {
+  clear(code);
+}
+
+void SurfaceTiles::clear(std::uint32_t code) {
+  forget_planes();
+  cleared_to = static_cast<std::int32_t>(code);
+  ++epoch;
+  if (epoch == 0) {  // before a number comes again, all flags go back to zero, which is no epoch
+    opened = zeroed_array<std::uint8_t>(blocks);
+    epoch = 1;
+  }
+}
+
+void SurfaceTiles::start(std::uint32_t number) {
+  const std::size_t first = number * entries;
+  std::fill_n(z_min.get() + first, entries, cleared_to);
+  std::fill_n(z_max.get() + first, entries, cleared_to);
+  std::fill_n(plane.get() + first, entries, kResolved);
+  opened[number] = epoch;
+}
+
+}  // namespace halfspace::fast

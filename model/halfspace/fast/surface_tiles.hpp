@@ -1,0 +1,72 @@
+/// What the fast core knows of the tiles of a depth surface: bounds of their codes, and the triangle whose
+/// plane they still are.
+///
+/// A tile that a triangle covered whole, each of whose samples passed, is that triangle's plane: its codes
+/// are made when somebody looks at them. What is known of a block's tiles is there when the block is opened:
+/// like TiledImage, the lists take memory where something is drawn.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/set_up.hpp"
+#include "halfspace/machine/frame_result.hpp"
+#include "halfspace/units/lazy_array.hpp"
+#include "halfspace/units/packets.hpp"
+
+namespace halfspace::fast {
+
+/// Of SurfaceTiles::plane: the codes are in the image.
+inline constexpr std::uint32_t kResolved = 0xFFFFFFFFu;
+
+struct SurfaceTiles {
+  SurfaceTiles() = default;
+  /// `block_tiles`: tiles on a side of a block. Every tile has `code` in every sample.
+  SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code);
+
+  /// Before something looks at the tiles of a block.
+  void open(std::uint32_t number) {
+    if (opened[number] != epoch) [[unlikely]] {
+      start(number);
+    }
+  }
+
+  /// Block (x, y), in blocks.
+  [[nodiscard]] std::uint32_t block(std::uint32_t x, std::uint32_t y) const { return y * blocks_x + x; }
+  /// Where a tile is in the lists below.
+  [[nodiscard]] std::size_t index(int tile_x, int tile_y) const {
+    const auto x = static_cast<std::uint32_t>(tile_x);
+    const auto y = static_cast<std::uint32_t>(tile_y);
+    const std::uint32_t in_block = (1u << block_shift) - 1;
+    return block(x >> block_shift, y >> block_shift) * entries + ((y & in_block) << block_shift) +
+           (x & in_block);
+  }
+
+  /// Every tile has `code` in every sample of the image, too.
+  void clear(std::uint32_t code);
+  /// Forgets all planes, when no tile is one.
+  void forget_planes() {
+    planes.clear();
+    equations.clear();
+  }
+
+  int block_shift = 0;  ///< log2 of the tiles on a side of a block
+  std::uint32_t blocks_x = 0;
+  std::uint32_t blocks = 0;
+  std::size_t entries = 0;        ///< of a block: its tiles in row order, and groups of kLanes full
+  LazyArray<std::int32_t> z_min;  ///< no code of the tile is less
+  LazyArray<std::int32_t> z_max;
+  LazyArray<std::uint32_t> plane;  ///< index in `planes`, or kResolved
+  LazyArray<std::uint8_t> opened;  ///< by block: the epoch in which it was
+  std::uint8_t epoch = 0;          ///< counts clears
+  std::int32_t cleared_to = 0;     ///< what blocks are that have not been opened since
+  std::vector<Plane> planes;
+  std::vector<DepthEquation> equations;  ///< of planes that the units must resolve
+
+ private:
+  void start(std::uint32_t number);
+};
+
+}  // namespace halfspace::fast

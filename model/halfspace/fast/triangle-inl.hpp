@@ -1,0 +1,190 @@
+// Without a guard that stops a second inclusion: once for each target of Highway.
+#if defined(HALFSPACE_FAST_TRIANGLE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HALFSPACE_FAST_TRIANGLE_INL
+#undef HALFSPACE_FAST_TRIANGLE_INL
+#else
+#define HALFSPACE_FAST_TRIANGLE_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "halfspace/fast/plane-inl.hpp"
+#include "halfspace/fast/raster.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::fast::HWY_NAMESPACE {
+namespace {
+
+/// How far an edge function changes, from the first sample of a square, to those where it is most and least.
+struct Reach {
+  std::int32_t most = 0;
+  std::int32_t least = 0;
+};
+
+/// A triangle in the hands of the raster kernels.
+struct Triangle {
+  // Of each edge, in pixel steps.
+  alignas(64) std::int32_t sample_steps[3][kWidth];  ///< from a tile's first sample to the first kWidth
+  alignas(64) std::int32_t tile_steps[3][kLanes];    ///< from a block's first tile to those of a group
+  std::array<std::int64_t, 3> e;                     ///< at pixel (0, 0) of the screen
+  std::array<std::int32_t, 3> a;
+  std::array<std::int32_t, 3> b;
+  std::array<Reach, 3> tile_reach;
+  std::array<Reach, 3> block_reach;
+  PixelRect bounds;
+  std::uint32_t number;  ///< in the draw
+
+  // Depth.
+  DepthKind kind;
+  alignas(64) std::int32_t depth_steps[kWidth];  ///< kShort: as sample_steps
+  alignas(64) std::uint64_t long_steps[8 * 8];   ///< kLong: of all samples
+  Plane plane;
+  ShortWords short_words;
+  LongWords long_words;
+  std::int64_t rebias;         ///< kLong
+  std::uint32_t plane_number;  ///< among those of the surface, or kResolved
+  // Bounds of depth by tiles, in codes, or in depth for float32.
+  alignas(64) float tile_depth[kLanes];  ///< from a block's first tile to those of a group
+  double gradient_x;                     ///< for a pixel
+  double gradient_y;
+  double depth_origin;  ///< at pixel (0, 0) of the screen
+  float tile_least;     ///< from a tile's first sample to its least
+  float tile_most;
+  const SetupTriangle* whole;  ///< kUnits
+
+  [[nodiscard]] HWY_INLINE std::int64_t at(std::size_t edge, int x, int y) const {
+    return e[edge] + std::int64_t{a[edge]} * x + std::int64_t{b[edge]} * y;
+  }
+};
+
+HWY_INLINE Reach reach(std::int32_t a, std::int32_t b, int size) {
+  const std::int32_t x = a * (size - 1);
+  const std::int32_t y = b * (size - 1);
+  return {.most = std::max(x, 0) + std::max(y, 0), .least = std::min(x, 0) + std::min(y, 0)};
+}
+
+template <int TileSize>
+HWY_INLINE void load_edges(const SetUpTriangles& in, std::size_t at, int block_size, Triangle& out) {
+  const int block_tiles = block_size / TileSize;
+  const int shift = std::countr_zero(static_cast<unsigned>(block_tiles));
+  out.bounds = {
+      .x_first = in.x_first[at], .y_first = in.y_first[at], .x_last = in.x_last[at], .y_last = in.y_last[at]};
+  out.number = static_cast<std::uint32_t>(in.number[at]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t a = in.a[k][at];
+    const std::int32_t b = in.b[k][at];
+    out.e[k] = in.e[k][at];
+    out.a[k] = a;
+    out.b[k] = b;
+    out.tile_reach[k] = reach(a, b, TileSize);
+    out.block_reach[k] = reach(a, b, block_size);
+    hn::Store(first_samples<TileSize>(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)), Tag(),
+              out.sample_steps[k]);
+    for (int i = 0; i < kLanes; i += kWidth) {
+      const Vector lane = hn::Iota(Tag(), i);
+      const Vector x = hn::And(lane, set(block_tiles - 1));
+      const Vector y = hn::ShiftRightSame(lane, shift);
+      hn::Store(hn::Add(hn::Mul(x, set(a * TileSize)), hn::Mul(y, set(b * TileSize))), Tag(),
+                out.tile_steps[k] + i);
+    }
+  }
+}
+
+/// A gradient with the sign that it has.
+inline double real(std::uint64_t gradient) {
+  return static_cast<double>(static_cast<std::int64_t>(gradient));
+}
+inline double real(Modular gradient) { return static_cast<double>(static_cast<Int128>(gradient)); }
+
+/// What bounds of depth are made of. `unit`: of a code, in words; of float32, of depth.
+template <int TileSize, class Words>
+HWY_INLINE void load_bounds(const Words& words, double unit, double least_margin, const RasterTask& task,
+                            Triangle& out) {
+  const double pixel = 1 << task.walker.sub_pixel_bits;
+  const double scale = 1 / (double{1 << kGradientFraction} * unit);
+  const double dx = real(words.dx) * scale;
+  const double dy = real(words.dy) * scale;
+  const Plane& plane = out.plane;
+  const double z = (static_cast<double>(plane.z) + static_cast<double>(plane.add)) / unit;
+  out.gradient_x = dx;
+  out.gradient_y = dy;
+  out.depth_origin = z + (0.5 - plane.x / pixel) * dx + (0.5 - plane.y / pixel) * dy;
+  // Floats, and the words' own rounding, are off by less than this anywhere in the blocks that the bounds
+  // touch.
+  const double reach = std::fabs(dx) * (out.bounds.x_last - out.bounds.x_first + 2 * task.walker.block_size) +
+                       std::fabs(dy) * (out.bounds.y_last - out.bounds.y_first + 2 * task.walker.block_size);
+  const auto margin = static_cast<float>(least_margin + (std::fabs(z) + 2 * reach) * 0x1p-20);
+  const auto gx = static_cast<float>(dx);
+  const auto gy = static_cast<float>(dy);
+  const float side = TileSize - 1;
+  out.tile_least = side * (std::min(gx, 0.0F) + std::min(gy, 0.0F)) - margin;
+  out.tile_most = side * (std::max(gx, 0.0F) + std::max(gy, 0.0F)) + margin;
+  const int block_tiles = task.walker.block_size / TileSize;
+  const int shift = std::countr_zero(static_cast<unsigned>(block_tiles));
+  const FloatTag tag;
+  for (int i = 0; i < kLanes; i += kWidth) {
+    const Vector lane = hn::Iota(Tag(), i);
+    const auto x = hn::ConvertTo(tag, hn::And(lane, set(block_tiles - 1)));
+    const auto y = hn::ConvertTo(tag, hn::ShiftRightSame(lane, shift));
+    hn::Store(hn::Add(hn::Mul(x, hn::Set(tag, gx * TileSize)), hn::Mul(y, hn::Set(tag, gy * TileSize))), tag,
+              out.tile_depth + i);
+  }
+}
+
+template <int TileSize>
+HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const RasterTask& task, Triangle& out) {
+  const EarlyZState& state = task.draw->early_z;
+  out.plane_number = kResolved;
+  out.kind = static_cast<DepthKind>(in.kind[at]);
+  if (out.kind == DepthKind::kNone) {
+    return;
+  }
+  Plane& plane = out.plane;
+  plane.kind = out.kind;
+  plane.low = in.low[at];
+  plane.high = in.high[at];
+  if (out.kind == DepthKind::kUnits) {
+    out.whole = &in.whole[static_cast<std::size_t>(in.full[at])];
+    return;
+  }
+  if (out.kind == DepthKind::kFlat) {
+    return;
+  }
+  plane.add = in.added[at];
+  plane.x = in.x[at];
+  plane.y = in.y[at];
+  plane.z = in.z[at];
+  plane.dx = in.dx[at];
+  plane.dy = in.dy[at];
+  if (out.kind == DepthKind::kShort) {
+    out.short_words = ShortWords(plane, plane.dx, plane.dy, state.sub_pixel_bits);
+    constexpr double kMargin = 2;
+    load_bounds<TileSize>(out.short_words,
+                          static_cast<double>(std::int64_t{1} << vertex_depth_fraction(state.format)),
+                          kMargin, task, out);
+    hn::Store(first_samples<TileSize>(out.short_words.step_x, out.short_words.step_y), Tag(),
+              out.depth_steps);
+  } else {
+    plane.dx_high = in.dx_high[at];
+    plane.dy_high = in.dy_high[at];
+    plane.exponent = in.exponent[at];
+    out.long_words = long_words(plane, state.sub_pixel_bits);
+    constexpr double kMargin = 0x1p-60;
+    load_bounds<TileSize>(out.long_words, std::ldexp(1.0, kLongWordFraction - plane.exponent), kMargin, task,
+                          out);
+    out.rebias = float_rebias(plane.exponent);
+    long_steps<TileSize>(out.long_words, out.long_steps);
+  }
+}
+
+}  // namespace
+}  // namespace halfspace::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,415 @@
+// Without a guard that stops a second inclusion: once for each target of Highway.
+#if defined(HALFSPACE_FAST_WALK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HALFSPACE_FAST_WALK_INL
+#undef HALFSPACE_FAST_WALK_INL
+#else
+#define HALFSPACE_FAST_WALK_INL
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "halfspace/fast/depth_bounds-inl.hpp"
+#include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/triangle-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::fast::HWY_NAMESPACE {
+namespace {
+
+/// A triangle in a group of tiles: those that it covers whole, and those of which it covers a part.
+struct Visit {
+  Triangle* triangle;
+  std::uint32_t block_x;
+  std::uint32_t block_y;
+  std::uint32_t group;  ///< of the block
+  std::uint16_t whole;  ///< a bit a tile
+  std::uint16_t partial;
+  std::uint32_t first_mask;  ///< of the partial ones
+  CodeRange range;           ///< where the triangle has depth
+};
+
+/// Tile walker and edge evaluator: turns triangles into visits. early_z takes them later, when what they need
+/// has come from memory.
+template <int TileSize>
+class Walk {
+ public:
+  static constexpr int kSamples = TileSize * TileSize;
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kSamples);
+  static constexpr std::size_t kMostVisits = 64;
+  static constexpr std::size_t kMostTriangles = 16;
+
+  explicit Walk(const RasterTask& task)
+      : counters_(task.draw->counters),
+        surface_(task.surface),
+        tiles_(task.tiles),
+        func_(task.draw->early_z.func),
+        is_float_(task.draw->early_z.format == DepthFormat::kFloat32),
+        config_(task.walker),
+        block_size_(task.walker.block_size),
+        block_tiles_(task.walker.block_size / TileSize),
+        block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))),
+        tile_shift_(std::countr_zero(static_cast<unsigned>(block_tiles_))),
+        group_rows_(std::min(kLanes / block_tiles_, block_tiles_)),
+        groups_(std::max(1, block_tiles_ * block_tiles_ / kLanes)) {}
+
+  /// Calls flush() whenever there is no room for another visit or triangle.
+  template <class Flush>
+  HWY_INLINE void triangle(Triangle& t, Flush&& flush) {
+    const PixelRect& bounds = t.bounds;
+    const bool one_tile = bounds.x_first / TileSize == bounds.x_last / TileSize &&
+                          bounds.y_first / TileSize == bounds.y_last / TileSize;
+    const int x_first = bounds.x_first >> block_shift_;
+    const int x_last = bounds.x_last >> block_shift_;
+    const int y_last = bounds.y_last >> block_shift_;
+    for (int y = bounds.y_first >> block_shift_; y <= y_last; ++y) {
+      if (one_tile || x_first == x_last) {
+        block_alone(t, x_first, y, one_tile, flush);
+      } else {
+        block_row(t, x_first, x_last, y, flush);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t visits() const { return visit_count_; }
+  [[nodiscard]] const Visit& visit(std::size_t i) const { return visits_[i]; }
+  [[nodiscard]] const std::uint64_t* masks(const Visit& visit) const {
+    return masks_.data() + visit.first_mask;
+  }
+  void clear() {
+    visit_count_ = 0;
+    mask_count_ = 0;
+  }
+
+ private:
+  struct Verdict {
+    std::uint32_t rejected = 0;               ///< a bit a square
+    std::array<std::uint32_t, 3> accepted{};  ///< by edge
+    [[nodiscard]] std::uint32_t whole() const { return accepted[0] & accepted[1] & accepted[2]; }
+  };
+
+  // ---- blocks ----
+
+  template <class Flush>
+  HWY_INLINE void block_alone(Triangle& t, int x, int y, bool one_tile, Flush&& flush) {
+    Verdict verdict;
+    if (!one_tile) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t e = t.at(k, x << block_shift_, y << block_shift_);
+        verdict.rejected |= e + t.block_reach[k].most < 0 ? 1 : 0;
+        verdict.accepted[k] = e + t.block_reach[k].least >= 0 ? 1 : 0;
+      }
+      verdict = as_configured(verdict, 1);
+      if (verdict.rejected != 0) {
+        ++counters_.tile_walker.blocks_rejected;
+        return;
+      }
+    }
+    block(t, x, y, verdict.whole() != 0, !one_tile, flush);
+  }
+
+  template <class Flush>
+  HWY_INLINE void block_row(Triangle& t, int x_first, int x_last, int y, Flush&& flush) {
+    const WideTag wide;
+    const WideVector lane = hn::Iota(wide, 0);
+    for (int x = x_first; x <= x_last; x += kWideWidth) {
+      const auto count = std::min(x_last - x + 1, kWideWidth);
+      const std::uint32_t all = (1u << count) - 1;
+      Verdict verdict;
+      WideVector outside = hn::Zero(wide);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const WideVector step = hn::Set(wide, std::int64_t{t.a[k]} << block_shift_);
+        const WideVector e =
+            hn::Add(hn::Set(wide, t.at(k, x << block_shift_, y << block_shift_)), times(lane, step));
+        outside = hn::Or(outside, hn::Add(e, hn::Set(wide, std::int64_t{t.block_reach[k].most})));
+        verdict.accepted[k] = ~wide_negative(hn::Add(e, hn::Set(wide, std::int64_t{t.block_reach[k].least})));
+      }
+      verdict.rejected = wide_negative(outside);
+      verdict = as_configured(verdict, all);
+      counters_.tile_walker.blocks_rejected += static_cast<std::uint64_t>(std::popcount(verdict.rejected));
+      const std::uint32_t whole = verdict.whole();
+      for (std::uint32_t left = all & ~verdict.rejected; left != 0; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        block(t, x + i, y, (whole >> i & 1) != 0, true, flush);
+      }
+    }
+  }
+
+  /// Products of small numbers.
+  static HWY_INLINE WideVector times(WideVector l, WideVector r) {
+#if HWY_TARGET == HWY_SCALAR
+    return hn::Mul(l, r);
+#else
+    return hn::MulEven(hn::BitCast(Tag(), l), hn::BitCast(Tag(), r));
+#endif
+  }
+
+  static HWY_INLINE std::uint32_t wide_negative(WideVector v) {
+    const auto mask = hn::Lt(v, hn::Zero(WideTag()));
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+    return mask.raw;
+#else
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(WideTag(), mask, bytes);
+    return bytes[0];
+#endif
+  }
+
+  [[nodiscard]] HWY_INLINE Verdict as_configured(Verdict verdict, std::uint32_t all) const {
+    verdict.rejected &= config_.trivial_reject ? all : 0;
+    for (std::uint32_t& accepted : verdict.accepted) {
+      accepted &= config_.trivial_accept ? all : 0;
+    }
+    return verdict;
+  }
+
+  template <class Flush>
+  HWY_INLINE void block(Triangle& t, int x, int y, bool covered, bool decided, Flush&& flush) {
+    const PixelRect& bounds = t.bounds;
+    const int px = x << block_shift_;
+    const int py = y << block_shift_;
+    const PixelRect inside{.x_first = std::max(bounds.x_first - px, 0),
+                           .y_first = std::max(bounds.y_first - py, 0),
+                           .x_last = std::min(bounds.x_last - px, block_size_ - 1),
+                           .y_last = std::min(bounds.y_last - py, block_size_ - 1)};
+    const bool filled = inside.x_last - inside.x_first == block_size_ - 1 &&
+                        inside.y_last - inside.y_first == block_size_ - 1;
+    TileWalkerCounters& walker = counters_.tile_walker;
+    if (covered && filled) {
+      const std::uint64_t tiles = std::uint64_t{1} << 2 * tile_shift_;
+      ++walker.blocks_accepted;
+      walker.tiles_by_block += tiles;
+      counters_.edge_evaluator.tiles_skipped += tiles;
+      for (int group = 0; group < groups_; ++group) {
+        add(t, x, y, group, group_lanes(group, 0, block_tiles_ - 1, 0, block_tiles_ - 1), flush);
+      }
+      return;
+    }
+    walker.blocks_partial += decided ? 1 : 0;
+    // Saturated: what matters is the sign inside the block.
+    constexpr std::int64_t kLimit = std::int64_t{1} << 30;
+    std::array<std::int32_t, 3> e{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      e[k] = static_cast<std::int32_t>(std::clamp(t.at(k, px, py), -kLimit, kLimit - 1));
+    }
+    for (int group = 0; group < groups_; ++group) {
+      tiles(t, x, y, group, e, inside, filled, flush);
+      for (std::size_t k = 0; k < 3; ++k) {
+        e[k] += t.b[k] * group_rows_ * TileSize;
+      }
+    }
+  }
+
+  template <class Flush>
+  HWY_INLINE void add(Triangle& t, int x, int y, int group, std::uint32_t whole, Flush&& flush) {
+    if (visit_count_ == kMostVisits) {
+      flush();
+    }
+    begin_visit(t, x, y, group).whole = static_cast<std::uint16_t>(whole);
+    ++visit_count_;
+  }
+
+  /// It is a visit when it is counted.
+  HWY_INLINE Visit& begin_visit(Triangle& t, int x, int y, int group) {
+    Visit& visit = visits_[visit_count_];
+    visit.triangle = &t;
+    visit.block_x = static_cast<std::uint32_t>(x);
+    visit.block_y = static_cast<std::uint32_t>(y);
+    visit.group = static_cast<std::uint32_t>(group);
+    visit.whole = 0;
+    visit.partial = 0;
+    visit.first_mask = mask_count_;
+    if (tiles_ != nullptr) {
+      tiles_->open(tiles_->block(visit.block_x, visit.block_y));
+    }
+    if (t.kind != DepthKind::kNone) {
+      code_range(t, x << block_shift_, (y << block_shift_) + group * group_rows_ * TileSize, is_float_,
+                 visit.range);
+    }
+    return visit;
+  }
+
+  // ---- tiles of a block ----
+
+  /// Lanes of the tiles in columns and rows of a block.
+  [[nodiscard]] HWY_INLINE std::uint32_t group_lanes(int group, int x_first, int x_last, int y_first,
+                                                     int y_last) const {
+    constexpr std::uint32_t kColumns[] = {0xFFFF, 0x5555, 0x1111, 0x0101, 0x0001};
+    const int above = group * group_rows_;
+    const int first = std::max(y_first - above, 0);
+    const int last = std::min(y_last - above, group_rows_ - 1);
+    if (first > last || x_first > x_last) {
+      return 0;
+    }
+    const std::uint32_t row = ((2u << x_last) - 1) & ~((1u << x_first) - 1);
+    const std::uint32_t rows =
+        ((1u << ((last + 1) << tile_shift_)) - 1) & ~((1u << (first << tile_shift_)) - 1);
+    return row * kColumns[tile_shift_] & rows;
+  }
+
+  template <class Flush>
+  HWY_INLINE void tiles(Triangle& t, int x, int y, int group, const std::array<std::int32_t, 3>& e,
+                        const PixelRect& inside, bool filled, Flush&& flush) {
+    const Tag tag;
+    alignas(64) std::int32_t at[3][kLanes];
+    Verdict verdict;
+    for (int i = 0; i < kLanes; i += kWidth) {
+      Vector outside = hn::Zero(tag);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector there = hn::Add(set(e[k]), hn::Load(tag, t.tile_steps[k] + i));
+        hn::Store(there, tag, at[k] + i);
+        outside = hn::Or(outside, hn::Add(there, set(t.tile_reach[k].most)));
+        verdict.accepted[k] |= (~negative(hn::Add(there, set(t.tile_reach[k].least))) & ((1u << kWidth) - 1))
+                               << i;
+      }
+      verdict.rejected |= negative(outside) << i;
+    }
+    std::uint32_t touched = group_lanes(group, inside.x_first / TileSize, inside.x_last / TileSize,
+                                        inside.y_first / TileSize, inside.y_last / TileSize);
+    verdict = as_configured(verdict, touched);
+    touched &= ~verdict.rejected;
+    std::uint32_t whole = verdict.whole() & touched;
+    if (!filled && whole != 0) {
+      whole &=
+          group_lanes(group, (inside.x_first + TileSize - 1) / TileSize, (inside.x_last + 1) / TileSize - 1,
+                      (inside.y_first + TileSize - 1) / TileSize, (inside.y_last + 1) / TileSize - 1);
+    }
+    const std::uint32_t partial = touched & ~whole;
+    count(verdict, whole, partial);
+    if (touched == 0) {
+      return;
+    }
+    if (visit_count_ == kMostVisits) {
+      flush();
+    }
+    Visit& visit = begin_visit(t, x, y, group);
+    visit.whole = static_cast<std::uint16_t>(whole);
+    const std::uint32_t looked_at = t.kind == DepthKind::kNone ? 0 : ~dead(visit);
+    const int first_x = x << tile_shift_;
+    const int first_y = (y << tile_shift_) + group * group_rows_;
+    for (std::uint32_t left = partial; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const int column = i & (block_tiles_ - 1);
+      const int row = i >> tile_shift_;
+      std::uint64_t mask = inside_edges(t, {at[0][i], at[1][i], at[2][i]});
+      if (!filled) {
+        mask &= inside_rect(inside, column * TileSize, (group * group_rows_ + row) * TileSize);
+      }
+      if (mask == 0) {
+        continue;
+      }
+      masks_[mask_count_++] = mask;
+      visit.partial = static_cast<std::uint16_t>(visit.partial | 1u << i);
+      if ((looked_at >> i & 1) != 0) {
+        prefetch(surface_->codes.tile(first_x + column, first_y + row), mask);
+      }
+    }
+    counters_.edge_evaluator.tiles_empty +=
+        static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
+    visit_count_ += (visit.whole | visit.partial) != 0 ? 1 : 0;
+  }
+
+  /// Tiles of a visit whose samples will all die: what is written until their turn comes does not change
+  /// that.
+  [[nodiscard]] HWY_INLINE std::uint32_t dead(const Visit& visit) const {
+    if (!is_ordered(func_)) {
+      return 0;
+    }
+    const std::size_t at =
+        tiles_->block(visit.block_x, visit.block_y) * tiles_->entries + visit.group * kLanes;
+    return outcome(func_, visit.range, *tiles_, at).killed;
+  }
+
+  /// The lines of the processor's cache, two rows of a tile each, that hold samples of the mask.
+  static HWY_INLINE void prefetch(const std::uint32_t* codes, std::uint64_t mask) {
+    constexpr int kLineSamples = 16;
+    const int first = std::countr_zero(mask) / kLineSamples;
+    const int last = (63 - std::countl_zero(mask)) / kLineSamples;
+    hwy::Prefetch(codes + first * kLineSamples);
+    for (int line = first + 1; line <= last; ++line) {
+      hwy::Prefetch(codes + line * kLineSamples);
+    }
+  }
+
+  HWY_INLINE void count(const Verdict& verdict, std::uint32_t whole, std::uint32_t partial) {
+    const auto ones = [](std::uint32_t bits) { return static_cast<std::uint64_t>(std::popcount(bits)); };
+    counters_.tile_walker.tiles_rejected += ones(verdict.rejected);
+    counters_.tile_walker.tiles_accepted += ones(whole);
+    counters_.tile_walker.tiles_partial += ones(partial);
+    EdgeEvaluatorCounters& evaluator = counters_.edge_evaluator;
+    std::uint64_t skipped = 0;
+    for (const std::uint32_t accepted : verdict.accepted) {
+      skipped += ones(accepted & partial);
+    }
+    evaluator.tiles_skipped += ones(whole);
+    evaluator.tiles += ones(partial);
+    evaluator.edges_skipped += skipped;
+    evaluator.edges += 3 * ones(partial) - skipped;
+  }
+
+  // ---- samples of a tile ----
+
+  /// Given the edges at its first sample.
+  HWY_INLINE std::uint64_t inside_edges(const Triangle& t, const std::array<std::int32_t, 3>& e) const {
+    const Tag tag;
+    std::uint64_t outside = 0;
+    Vector value[3];
+    Vector down[3];
+    constexpr int kRows = kWidth / TileSize;
+    static_assert(kWidth == 1 || kRows >= 1 || kWidth == 4);
+    for (std::size_t k = 0; k < 3; ++k) {
+      value[k] = hn::Add(set(e[k]), hn::Load(tag, t.sample_steps[k]));
+      down[k] = kRows > 0 ? set(t.b[k] * kRows) : set(t.a[k] * kWidth);
+    }
+    for (int i = 0; i < kSamples; i += kWidth) {
+      outside |= std::uint64_t{negative(hn::Or(value[0], hn::Or(value[1], value[2])))} << i;
+      for (std::size_t k = 0; k < 3; ++k) {
+        value[k] = hn::Add(value[k], down[k]);
+        if (kRows == 0 && (i + kWidth) % TileSize == 0) {
+          value[k] = hn::Add(value[k], set(t.b[k] - t.a[k] * TileSize));
+        }
+      }
+    }
+    return kAll & ~outside;
+  }
+
+  /// Samples of the tile at (x, y) that `rect` holds.
+  static HWY_INLINE std::uint64_t inside_rect(const PixelRect& rect, int x, int y) {
+    constexpr std::uint64_t kColumn = kSamples == 64 ? 0x0101010101010101u : 0x1111u;
+    const int x_first = std::max(rect.x_first - x, 0);
+    const int x_last = std::min(rect.x_last - x, TileSize - 1);
+    const int y_first = std::max(rect.y_first - y, 0);
+    const int y_last = std::min(rect.y_last - y, TileSize - 1);
+    const std::uint64_t row = ((std::uint64_t{2} << (x_last - x_first)) - 1) << x_first;
+    const std::uint64_t upto = kAll >> (TileSize * (TileSize - 1 - y_last));
+    return kColumn * row & upto & (kAll << (TileSize * y_first));
+  }
+
+  Counters& counters_;
+  Surface* const surface_;
+  SurfaceTiles* const tiles_;
+  const DepthFunc func_;
+  const bool is_float_;
+  const WalkerConfig& config_;
+  const int block_size_;
+  const int block_tiles_;  ///< on a side
+  const int block_shift_;  ///< log2 of its pixels on a side
+  const int tile_shift_;   ///< log2 of its tiles
+  const int group_rows_;
+  const int groups_;
+  std::array<Visit, kMostVisits> visits_;
+  std::array<std::uint64_t, kMostVisits * kLanes> masks_;
+  std::size_t visit_count_ = 0;
+  std::uint32_t mask_count_ = 0;
+};
+
+}  // namespace
+}  // namespace halfspace::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,323 @@
+// Without a guard that stops a second inclusion: once for each target of Highway.
+#if defined(HALFSPACE_FAST_WINDOWS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HALFSPACE_FAST_WINDOWS_INL
+#undef HALFSPACE_FAST_WINDOWS_INL
+#else
+#define HALFSPACE_FAST_WINDOWS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <iterator>
+
+#include "halfspace/fast/plane-inl.hpp"
+#include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/tallies.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace halfspace::fast::HWY_NAMESPACE {
+namespace {
+
+/// What is found of small triangles, one a lane. By tile, as `covered`: left, right, and below.
+struct WindowBatch {
+  Vector x;  ///< first pixel of the window
+  Vector y;
+  std::uint32_t hit = 0;                      ///< windows of which a sample is covered
+  std::array<std::uint32_t, 4> covered{};     ///< and in this tile
+  alignas(64) std::int32_t mask[4][kWidth];   ///< bit 4 y + x
+  alignas(64) std::int32_t tile[4][kWidth];   ///< its number in the image
+  alignas(64) std::int32_t block[4][kWidth];  ///< of its block
+  alignas(64) std::int32_t at[4][kWidth];     ///< in SurfaceTiles
+  alignas(64) std::int32_t entry[4][kWidth];  ///< in BlockCache
+};
+
+/// Tile walker, edge evaluator and quad generator of small triangles, one a lane: each within a window of 4 x
+/// 4 samples that begins at a quad. A window lies on one tile or, where it crosses borders in its middle, on
+/// two or four.
+template <int TileSize>
+class Windows {
+ public:
+  static constexpr int kSide = 4;
+
+  Windows(const RasterTask& task, Tallies& tallies)
+      : task_(task),
+        counters_(task.draw->counters),
+        tallies_(tallies),
+        block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))) {}
+
+  /// Which of the kWidth triangles from `at` on are small; with edges so short that 32 bits do in blocks
+  /// around them.
+  static std::uint32_t among(const SetUpTriangles& in, std::size_t at) {
+    constexpr std::int32_t kMostStep = 1 << 14;
+    Vector steps = hn::Zero(Tag());
+    for (std::size_t k = 0; k < 3; ++k) {
+      steps = hn::Or(steps, hn::Or(hn::Abs(field(in.a[k], at)), hn::Abs(field(in.b[k], at))));
+    }
+    const auto extent = [&](const auto& first, const auto& last) {
+      return hn::Sub(field(last, at), hn::AndNot(set(1), field(first, at)));
+    };
+    const Vector side = hn::Max(extent(in.x_first, in.x_last), extent(in.y_first, in.y_last));
+    const auto fits = hn::And(hn::Lt(steps, set(kMostStep)), hn::Lt(side, set(kSide)));
+    return bits_of(
+        hn::And(fits, hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kLong)))));
+  }
+
+  /// Looks at `count` small triangles from `first` on, at most kWidth.
+  void look_at(const SetUpTriangles& in, std::size_t first, std::size_t count) {
+    in_ = &in;
+    first_ = first;
+    all_ = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+    place();
+    cover();
+    decide();
+  }
+
+  /// Adds what was counted in vectors to the tallies.
+  void tally() {
+    const auto total = [](Vector sum) HWY_ATTR {
+      return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(Tag(), sum)));
+    };
+    tallies_.fragments += total(sum_[0]);
+    tallies_.quads += total(sum_[1]);
+    tallies_.full_quads += total(sum_[2]);
+    std::fill(std::begin(sum_), std::end(sum_), hn::Zero(Tag()));
+  }
+
+  WindowBatch found;
+
+ private:
+  static HWY_INLINE Vector field(const SetUpTriangles::Field<std::int32_t>& values, std::size_t at) {
+    return hn::LoadU(Tag(), values.data() + at);
+  }
+  static HWY_INLINE std::uint64_t ones(std::uint32_t bits) {
+    return static_cast<std::uint64_t>(std::popcount(bits));
+  }
+
+  void place() {
+    const Vector even = set(~1);
+    x_first_ = field(in_->x_first, first_);
+    y_first_ = field(in_->y_first, first_);
+    x_last_ = field(in_->x_last, first_);
+    y_last_ = field(in_->y_last, first_);
+    found.x = hn::And(x_first_, even);
+    found.y = hn::And(y_first_, even);
+    for (std::size_t k = 0; k < 3; ++k) {
+      a_[k] = field(in_->a[k], first_);
+      b_[k] = field(in_->b[k], first_);
+      e_[k] = hn::Add(low_half(in_->e[k], first_), hn::Add(hn::Mul(a_[k], found.x), hn::Mul(b_[k], found.y)));
+    }
+  }
+
+  /// 64-bit numbers that are close enough to 0, or modulo 2^32.
+  static HWY_INLINE Vector low_half(const SetUpTriangles::Field<std::int64_t>& values, std::size_t at) {
+    const WideTag wide;
+    const auto* const from = values.data() + at;
+    return narrow(hn::LoadU(wide, from), hn::LoadU(wide, from + (kWidth > 1 ? kWideWidth : 0)));
+  }
+
+  /// The samples of the windows that are covered: bit 4 y + x.
+  void cover() {
+    const Tag tag;
+    Vector outside = hn::Zero(tag);
+    for (int row = kSide - 1; row >= 0; --row) {
+      Vector at[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        at[k] = hn::Add(e_[k], hn::Add(hn::Mul(b_[k], set(row)), hn::Mul(a_[k], set(kSide - 1))));
+      }
+      for (int column = kSide - 1; column >= 0; --column) {
+        const Vector any = hn::Or(at[0], hn::Or(at[1], at[2]));
+        const Vector sign =
+            hn::BitCast(tag, hn::ShiftRight<31>(hn::BitCast(hn::RebindToUnsigned<Tag>(), any)));
+        outside = hn::Or(hn::ShiftLeft<1>(outside), sign);
+        for (std::size_t k = 0; k < 3; ++k) {
+          at[k] = hn::Sub(at[k], a_[k]);
+        }
+      }
+    }
+    // Columns and rows of the bounds.
+    const Vector one = set(1);
+    const auto from = [&](Vector begin) { return hn::Sub(hn::Zero(tag), hn::Shl(one, begin)); };
+    const auto upto = [&](Vector end) { return hn::Sub(hn::Shl(one, end), one); };
+    const Vector columns =
+        hn::And(from(hn::Sub(x_first_, found.x)), upto(hn::Add(hn::Sub(x_last_, found.x), one)));
+    const Vector rows = hn::And(from(hn::ShiftLeft<2>(hn::Sub(y_first_, found.y))),
+                                upto(hn::ShiftLeft<2>(hn::Add(hn::Sub(y_last_, found.y), one))));
+    inside_ = hn::AndNot(outside, hn::And(hn::Mul(columns, set(0x1111)), rows));
+  }
+
+  /// The corners of the squares of which (x, y) are the first samples.
+  HWY_INLINE void corners(Vector x, Vector y, int size, std::uint32_t& rejected,
+                          std::array<std::uint32_t, 3>& accepted) const {
+    const Tag tag;
+    const Vector zero = hn::Zero(tag);
+    const Vector far = set(size - 1);
+    const Vector dx = hn::Sub(x, found.x);
+    const Vector dy = hn::Sub(y, found.y);
+    Vector outside = zero;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector at = hn::Add(e_[k], hn::Add(hn::Mul(a_[k], dx), hn::Mul(b_[k], dy)));
+      const Vector far_x = hn::Mul(a_[k], far);
+      const Vector far_y = hn::Mul(b_[k], far);
+      outside = hn::Or(outside, hn::Add(at, hn::Add(hn::Max(far_x, zero), hn::Max(far_y, zero))));
+      accepted[k] = task_.walker.trivial_accept
+                        ? ~negative(hn::Add(at, hn::Add(hn::Min(far_x, zero), hn::Min(far_y, zero))))
+                        : 0;
+    }
+    rejected = task_.walker.trivial_reject ? negative(outside) : 0;
+  }
+
+  /// The decisions of the walker, and what is covered of each tile.
+  void decide() {
+    const Tag tag;
+    const auto square = [](Vector v, int shift) { return hn::ShiftRightSame(v, shift); };
+    constexpr int kTileShift = TileSize == 8 ? 3 : 2;
+    const Vector tile_x = square(x_first_, kTileShift);
+    const Vector tile_y = square(y_first_, kTileShift);
+    const std::uint32_t wide = all_ & bits_of(hn::Gt(square(x_last_, kTileShift), tile_x));
+    const std::uint32_t tall = all_ & bits_of(hn::Gt(square(y_last_, kTileShift), tile_y));
+    const std::uint32_t several = wide | tall;
+    std::array<std::uint32_t, 4> blocked{};  // tiles whose block is rejected
+    if (several != 0) {
+      decide_blocks(several, blocked);
+    }
+    found.hit = 0;
+    for (unsigned q = 0; q < 4; ++q) {
+      std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u) & ~blocked[q];
+      found.covered[q] = 0;
+      if (there == 0) {
+        continue;
+      }
+      std::uint32_t rejected = 0;
+      std::array<std::uint32_t, 3> accepted{};
+      corners(hn::ShiftLeft<kTileShift>(hn::Add(tile_x, set(static_cast<std::int32_t>(q & 1)))),
+              hn::ShiftLeft<kTileShift>(hn::Add(tile_y, set(static_cast<std::int32_t>(q >> 1)))), TileSize,
+              rejected, accepted);
+      count(there & rejected, there & ~rejected, accepted);
+      there &= ~rejected;
+      // A half of the window where it lies on two tiles.
+      const auto half = [&](std::uint32_t lanes, std::int32_t first, std::int32_t second, bool is_second) {
+        return hn::IfThenElse(mask_of(lanes), set(is_second ? second : first), set(0xFFFF));
+      };
+      const Vector part =
+          hn::And(half(wide, 0x3333, 0xCCCC, (q & 1) != 0), half(tall, 0x00FF, 0xFF00, (q & 2) != 0));
+      const Vector mask = hn::IfThenElseZero(mask_of(there), hn::And(inside_, part));
+      const std::uint32_t covered = bits_of(hn::Ne(mask, hn::Zero(tag)));
+      counters_.edge_evaluator.tiles_empty += ones(there & ~covered);
+      hn::Store(mask, tag, found.mask[q]);
+      count_quads(mask, covered);
+      found.covered[q] = covered;
+      found.hit |= covered;
+      if (covered != 0 && task_.tiles != nullptr) {
+        locate(q, hn::Add(tile_x, set(static_cast<std::int32_t>(q & 1))),
+               hn::Add(tile_y, set(static_cast<std::int32_t>(q >> 1))));
+      }
+    }
+  }
+
+  void decide_blocks(std::uint32_t several, std::array<std::uint32_t, 4>& blocked) {
+    const Vector first_x = hn::ShiftRightSame(x_first_, block_shift_);
+    const Vector first_y = hn::ShiftRightSame(y_first_, block_shift_);
+    const std::uint32_t two_x = several & bits_of(hn::Gt(hn::ShiftRightSame(x_last_, block_shift_), first_x));
+    const std::uint32_t two_y = several & bits_of(hn::Gt(hn::ShiftRightSame(y_last_, block_shift_), first_y));
+    for (unsigned q = 0; q < 4; ++q) {
+      const std::uint32_t there = several & ((q & 1) != 0 ? two_x : ~0u) & ((q & 2) != 0 ? two_y : ~0u);
+      if (there == 0) {
+        continue;
+      }
+      std::uint32_t rejected = 0;
+      std::array<std::uint32_t, 3> accepted{};
+      corners(hn::ShiftLeftSame(hn::Add(first_x, set(static_cast<std::int32_t>(q & 1))), block_shift_),
+              hn::ShiftLeftSame(hn::Add(first_y, set(static_cast<std::int32_t>(q >> 1))), block_shift_),
+              1 << block_shift_, rejected, accepted);
+      rejected &= there;
+      counters_.tile_walker.blocks_rejected += ones(rejected);
+      counters_.tile_walker.blocks_partial += ones(there & ~rejected);
+      // Its tiles: a border of tiles that is not one of blocks is inside.
+      for (unsigned tile = 0; tile < 4; ++tile) {
+        const std::uint32_t same_x = (tile & 1) == (q & 1) ? ~0u : (tile & 1) != 0 ? ~two_x : 0;
+        const std::uint32_t same_y = (tile & 2) == (q & 2) ? ~0u : (tile & 2) != 0 ? ~two_y : 0;
+        blocked[tile] |= rejected & same_x & same_y;
+      }
+    }
+  }
+
+  void count(std::uint32_t rejected, std::uint32_t evaluated, const std::array<std::uint32_t, 3>& accepted) {
+    counters_.tile_walker.tiles_rejected += ones(rejected);
+    counters_.tile_walker.tiles_partial += ones(evaluated);
+    std::uint64_t skipped = 0;
+    for (const std::uint32_t each : accepted) {
+      skipped += ones(evaluated & each);
+    }
+    EdgeEvaluatorCounters& evaluator = counters_.edge_evaluator;
+    evaluator.tiles += ones(evaluated);
+    evaluator.edges_skipped += skipped;
+    evaluator.edges += 3 * ones(evaluated) - skipped;
+  }
+
+  void count_quads(Vector mask, std::uint32_t covered) {
+    const Vector any_pairs = hn::Or(mask, hn::ShiftRight<1>(mask));
+    const Vector all_pairs = hn::And(mask, hn::ShiftRight<1>(mask));
+    const Vector corners = set(0x0505);
+    const Vector any = hn::And(hn::Or(any_pairs, hn::ShiftRight<4>(any_pairs)), corners);
+    const Vector full = hn::And(hn::And(all_pairs, hn::ShiftRight<4>(all_pairs)), corners);
+    tallies_.bursts += ones(covered);
+    const hn::RebindToUnsigned<Tag> plain;
+    const auto add = [&](std::size_t i, Vector bits) HWY_ATTR {
+      sum_[i] = hn::Add(sum_[i], hn::BitCast(Tag(), hn::PopulationCount(hn::BitCast(plain, bits))));
+    };
+    add(0, mask);
+    add(1, any);
+    add(2, full);
+  }
+
+  /// Where the tiles are: in the image, in SurfaceTiles and in the z cache.
+  HWY_INLINE void locate(unsigned q, Vector tile_x, Vector tile_y) {
+    const Tag tag;
+    const SurfaceTiles& tiles = *task_.tiles;
+    const BlockCache& cache = *task_.cache;
+    const auto number = [](auto value) { return set(static_cast<std::int32_t>(value)); };
+    const Vector block_x = hn::ShiftRightSame(tile_x, tiles.block_shift);
+    const Vector block_y = hn::ShiftRightSame(tile_y, tiles.block_shift);
+    const Vector in_block = number((1u << tiles.block_shift) - 1);
+    const Vector inside =
+        hn::Add(hn::ShiftLeftSame(hn::And(tile_y, in_block), tiles.block_shift), hn::And(tile_x, in_block));
+    const Vector block = hn::Add(hn::Mul(block_y, number(tiles.blocks_x)), block_x);
+    const Vector set_of_block =
+        hn::Or(hn::And(block_x, number(cache.x_mask)),
+               hn::ShiftLeftSame(hn::And(block_y, number(cache.y_mask)), cache.x_bits));
+    hn::Store(hn::Add(hn::Mul(tile_y, set(task_.surface->codes.tiles_x())), tile_x), tag, found.tile[q]);
+    hn::Store(block, tag, found.block[q]);
+    hn::Store(hn::Add(hn::Mul(block, number(tiles.entries)), inside), tag, found.at[q]);
+    hn::Store(hn::Add(hn::Mul(set_of_block, number(cache.entries)), inside), tag, found.entry[q]);
+  }
+
+  const RasterTask& task_;
+  Counters& counters_;
+  Tallies& tallies_;
+  const int block_shift_;
+
+  const SetUpTriangles* in_ = nullptr;
+  std::size_t first_ = 0;
+  std::uint32_t all_ = 0;
+  Vector x_first_;
+  Vector y_first_;
+  Vector x_last_;
+  Vector y_last_;
+  Vector a_[3];
+  Vector b_[3];
+  Vector e_[3];  ///< at the window's first sample
+  Vector inside_;
+
+  // Since the last tally(): fragments, quads, full quads.
+  Vector sum_[3] = {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())};
+};
+
+}  // namespace
+}  // namespace halfspace::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

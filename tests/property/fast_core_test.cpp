@@ -1,0 +1,141 @@
+// The fast core against the units: the same result of every frame, on every machine that it covers.
+#include <hwy/targets.h>
+
+#include <catch2/catch.hpp>
+
+#include "../result_difference.hpp"
+#include "../timing/random_machine.hpp"
+#include "halfspace/core/functional.hpp"
+#include "halfspace/fast/fast_core.hpp"
+#include "halfspace/machine/in_order.hpp"
+
+namespace halfspace::testing {
+namespace {
+
+/// Triangles that are hard on vectors: within a few samples, on the borders of tiles and blocks, slivers, and
+/// as large as the guard band.
+std::vector<glm::dvec3> hard_triangles(Random& random, int size, int count) {
+  const auto coordinate = [&](double low, double high) {
+    const double grid = pick(random, {1.0, 2.0, 16.0, 256.0, 4096.0});
+    return static_cast<double>(random.between(static_cast<std::int64_t>(low * grid),
+                                              static_cast<std::int64_t>(high * grid))) /
+           grid;
+  };
+  const auto depth = [&] {
+    return pick(random, {0.0, 0.5, 1.0, coordinate(0, 1), coordinate(0, 1), coordinate(0, 1)});
+  };
+  std::vector<glm::dvec3> window;
+  for (int n = 0; n < count; ++n) {
+    const double reach = pick(random, {1.0, 2.0, 3.0, 4.0, 9.0, 40.0, 40.0, 3000.0});
+    const double middle_x = coordinate(-4, size + 4);
+    const double middle_y = coordinate(-4, size + 4);
+    const bool flat = random.between(0, 5) == 0;
+    const double z = depth();
+    for (int i = 0; i < 3; ++i) {
+      window.emplace_back(middle_x + coordinate(-reach, reach), middle_y + coordinate(-reach, reach),
+                          flat ? z : depth());
+    }
+    if (random.between(0, 5) == 0) {  // a sliver
+      window.back() = (window[window.size() - 2] + window[window.size() - 3]) / 2.0;
+      window.back().x += coordinate(-1, 1) / 4;
+    }
+  }
+  return window;
+}
+
+Frame hard_frame(Random& random) {
+  Frame frame = random_frame(random);
+  if (random.between(0, 1) == 0) {
+    return frame;
+  }
+  const int size = pick(random, {16, 64, 100, 200});
+  FrameBuilder builder(static_cast<std::uint32_t>(size),
+                       pick(random, {DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kUnorm24,
+                                     DepthFormat::kFloat32}));
+  for (auto n = random.between(1, 3); n > 0; --n) {
+    Command& draw = builder.draw(hard_triangles(random, size, static_cast<int>(random.between(1, 300))));
+    draw.depth_func =
+        random.between(0, 1) == 0 ? DepthFunc::kLess : static_cast<DepthFunc>(random.between(0, 7));
+    draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kDepthClamp}) : 0;
+    draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kNdcZMinusOneToOne}) : 0;
+    draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kCullBack}) : 0;
+    draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kBottomLeftRule}) : 0;
+    if (random.between(0, 7) == 0) {
+      draw.flags |= bits({Flag::kPolygonOffset});
+      draw.offset_units = static_cast<float>(random.between(-100, 100));
+      draw.offset_factor = static_cast<float>(random.between(-4, 4));
+    }
+    if (random.between(0, 7) == 0) {
+      draw.depth_range = {static_cast<float>(random.between(0, 4)) / 4,
+                          static_cast<float>(random.between(0, 4)) / 4};
+    }
+    if (random.between(0, 5) == 0) {
+      draw.scissor = random_scissor(random, size);
+    }
+  }
+  return builder.frame;
+}
+
+/// Frames and machines at random, `runs` of them, on every instruction set in turn.
+void compare_cores(std::uint64_t runs) {
+  Random random(seed());
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  std::uint64_t covered = 0;
+  for (std::uint64_t run = 0; run < runs; ++run) {
+    const std::int64_t target = targets[run % targets.size()];
+    CAPTURE(seed(), run, hwy::TargetName(target));
+    const Config config = random_config(random);
+    const Frame frame = hard_frame(random);
+    const Watch watch{.keep_visible = random.between(0, 1) == 0, .count_pixels = random.between(0, 3) != 0};
+    if (!fast::gap(config, watch, nullptr).empty()) {
+      continue;
+    }
+    ++covered;
+    INFO(difference_from_default(config));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    fast::FastCore core(config, watch);
+    core.run(frame);
+    FrameResult result = core.take();
+    REQUIRE(result_difference(result, run_in_order(frame, config, watch, nullptr)) == "");
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  CHECK(covered > runs / 4);
+}
+
+}  // namespace
+
+TEST_CASE("fast core: what the units make of random frames on random machines", "[property]") {
+  compare_cores(samples(3000));
+}
+
+TEST_CASE("fast core: memory of the frame before leaves no trace", "[property]") {
+  Random random(seed() + 1);
+  const Config config;
+  const Watch watch{.keep_visible = true};
+  fast::FastCore core(config, watch);
+  for (std::uint64_t run = 0; run < samples(200); ++run) {
+    CAPTURE(seed(), run);
+    const Frame frame = hard_frame(random);
+    core.run(frame);
+    core.run(frame);
+    REQUIRE(result_difference(core.take(), run_in_order(frame, config, watch, nullptr)) == "");
+    core.run(hard_frame(random));  // is not taken
+  }
+}
+
+TEST_CASE("fast core: a run that it does not cover is refused or left to the units", "[property]") {
+  Random random(seed() + 2);
+  const Frame frame = hard_frame(random);
+  Config config;
+  CHECK(run_functional(frame, config).core == Core::kFast);
+  CHECK(run_functional(frame, config, {.core = Core::kReadable}).core == Core::kReadable);
+  config.tile_walker.block_level = false;
+  CHECK(run_functional(frame, config).core == Core::kReadable);
+  CHECK_THROWS_WITH(
+      run_functional(frame, config, {.core = Core::kFast}),
+      Catch::Contains("tile_walker.block_level = false") && Catch::Contains("legal: auto, readable"));
+}
+
+}  // namespace halfspace::testing
