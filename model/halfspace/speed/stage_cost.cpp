@@ -198,7 +198,7 @@ StageCosts stage_costs(const Frame& frame, const Config& config, int repeat) {
     for (std::size_t i = 0; i < kPrefixes; ++i) {
       times[i] = time_of([&] { kRunPrefix[i](frame, config); });
     }
-    const double functional = time_of([&] { run_functional(frame, config); });
+    const double functional = time_of([&] { run_functional(frame, config, {.core = Core::kReadable}); });
     if (pass == 0) {  // warms caches and page tables
       continue;
     }
