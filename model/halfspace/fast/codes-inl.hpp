@@ -40,10 +40,11 @@ HWY_INLINE void for_codes(const Triangle& t, int tile_x, int tile_y, int fractio
   } else {
     const WideTag wide;
     const WideVector origin = hn::Set(wide, static_cast<std::int64_t>(t.long_words.at(x, y)));
+    const WideVector rebias = hn::Set(wide, t.rebias);
     const auto* const steps = reinterpret_cast<const std::int64_t*>(t.long_steps);
     for (int i = 0; i < kSamples; i += kWidth) {
       const auto codes = [&](int from) HWY_ATTR {
-        return float_codes(hn::Add(origin, hn::LoadU(wide, steps + from)), t.rebias);
+        return float_codes(hn::Add(origin, hn::LoadU(wide, steps + from)), rebias);
       };
       visit(i, hn::Min(hn::Max(narrow(codes(i), codes(kWidth > 1 ? i + kWideWidth : i)), low), high));
     }

@@ -125,14 +125,14 @@ inline constexpr int kWideWidth = static_cast<int>(hn::MaxLanes(WideTag()));
 
 /// The float32 nearest to words, halves upwards, as bits in 64-bit lanes: float_of_word
 /// (units/float_parts.hpp). `rebias`: see float_rebias.
-HWY_INLINE WideVector float_codes(WideVector word, std::int64_t rebias) {
+HWY_INLINE WideVector float_codes(WideVector word, WideVector rebias) {
   const WideTag tag;
   // A double is exact: of 54 and more bits those that a float32 cannot see go.
   const auto large = hn::Gt(word, hn::Set(tag, (std::int64_t{1} << 53) - 1));
   const WideVector seen = hn::AndNot(hn::IfThenElseZero(large, hn::Set(tag, std::int64_t{0x7FF})), word);
   const WideVector bits = hn::BitCast(tag, hn::ConvertTo(hn::RebindToFloat<WideTag>(), seen));
   constexpr int kCut = 52 - 23;
-  const WideVector rounded = hn::Add(bits, hn::Set(tag, (std::int64_t{1} << (kCut - 1)) + rebias));
+  const WideVector rounded = hn::Add(bits, hn::Add(rebias, hn::Set(tag, std::int64_t{1} << (kCut - 1))));
   return hn::IfThenElseZero(hn::Gt(word, hn::Zero(tag)), hn::ShiftRight<kCut>(rounded));
 }
 

@@ -38,6 +38,7 @@ class Small {
         windows_(task, tallies),
         found_(windows_.found),
         fraction_(vertex_depth_fraction(task.draw->early_z.format)),
+        is_float_(task.draw->early_z.format == DepthFormat::kFloat32),
         touches_depth_(touches_depth(task.draw->early_z)) {}
 
   /// Adds what was counted in vectors to the tallies.
@@ -136,6 +137,10 @@ class Small {
 
   /// Words at the quads of the windows, and their steps.
   void load_depth() {
+    if (is_float_) {
+      load_long();
+      return;
+    }
     const Vector kind = field(in_->kind, first_);
     const auto is_short = hn::Eq(kind, set(static_cast<std::int32_t>(DepthKind::kShort)));
     const QuadWords low = quad_words(0);
@@ -148,6 +153,73 @@ class Small {
     }
     keep(low.step_x, high.step_x, step_x_);
     keep(low.step_y, high.step_y, step_y_);
+  }
+
+  /// The same of a float32 surface.
+  void load_long() {
+    for (std::uint32_t left = found_.hit; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const std::size_t at = first_ + lane;
+      if (in_->kind[at] == static_cast<std::int32_t>(DepthKind::kFlat)) {  // its range says all
+        for (std::size_t q = 0; q < 4; ++q) {
+          long_origin_[q * kWidth + lane] = 0;
+        }
+        long_step_x_[lane] = long_step_y_[lane] = rebias_[lane] = 0;
+        continue;
+      }
+      const LongWords words = long_words(plane_of(*in_, at), state_.sub_pixel_bits);
+      const std::uint32_t x = static_cast<std::uint32_t>(in_->x_first[at]) & ~1u;
+      const std::uint32_t y = static_cast<std::uint32_t>(in_->y_first[at]) & ~1u;
+      for (std::uint32_t q = 0; q < 4; ++q) {
+        long_origin_[q * kWidth + lane] = static_cast<std::int64_t>(words.at(x + 2 * (q & 1), y + 2 * (q >> 1)));
+      }
+      long_step_x_[lane] = static_cast<std::int64_t>(words.step_x);
+      long_step_y_[lane] = static_cast<std::int64_t>(words.step_y);
+      rebias_[lane] = float_rebias(in_->exponent[at]);
+    }
+  }
+
+  /// Codes of fragments, not yet within the ranges of their triangles.
+  HWY_INLINE Vector long_codes(Vector fragment) const {
+    alignas(64) std::int32_t fragments[kWidth];
+    hn::Store(fragment, Tag(), fragments);
+    const WideVector low = wide_codes(fragments);
+    return narrow(low, kWidth > 1 ? wide_codes(fragments + kWideWidth) : low);
+  }
+
+  HWY_INLINE WideVector wide_codes(const std::int32_t* fragments) const {
+    const WideTag wide;
+    const hn::Rebind<std::int32_t, WideTag> half;
+    const WideVector fragment = hn::PromoteTo(wide, hn::LoadU(half, fragments));
+    const auto bit = [&](int shift) HWY_ATTR {
+      return hn::And(hn::ShiftRightSame(fragment, shift), hn::Set(wide, std::int64_t{1}));
+    };
+    const auto is_odd = [&](int shift) HWY_ATTR { return hn::Ne(bit(shift), hn::Zero(wide)); };
+    constexpr int kLaneShift = std::countr_zero(static_cast<unsigned>(kWidth));
+    const WideVector lane = hn::ShiftRight<6>(fragment);
+    const WideVector quad = hn::Add(bit(1), hn::ShiftLeft<1>(bit(3)));
+    const WideVector origin = hn::GatherIndex(wide, long_origin_, hn::Add(hn::ShiftLeft<kLaneShift>(quad), lane));
+    const WideVector right = hn::IfThenElseZero(is_odd(0), hn::GatherIndex(wide, long_step_x_, lane));
+    const WideVector down = hn::IfThenElseZero(is_odd(2), hn::GatherIndex(wide, long_step_y_, lane));
+    return float_codes(hn::Add(origin, hn::Add(right, down)), hn::GatherIndex(wide, rebias_, lane));
+  }
+
+  /// Codes of fragments of unorm surfaces, not yet within the ranges of their triangles.
+  HWY_INLINE Vector short_codes(Vector fragment) const {
+    const Tag tag;
+    const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
+    const auto of_lane = [&](const std::int32_t* values) HWY_ATTR {
+      return hn::TableLookupLanes(hn::Load(tag, values), lane);
+    };
+    const auto is_set = [&](std::int32_t bit) HWY_ATTR {
+      return hn::Ne(hn::And(fragment, set(bit)), hn::Zero(tag));
+    };
+    const auto right = is_set(2);
+    const Vector origin = hn::IfThenElse(is_set(8), hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
+                                         hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
+    const Vector word = hn::Add(origin, hn::Add(hn::IfThenElseZero(is_set(1), of_lane(step_x_)),
+                                                hn::IfThenElseZero(is_set(4), of_lane(step_y_))));
+    return hn::ShiftRightSame(word, fraction_);
   }
 
   /// Words modulo 2^64, of which the low half counts.
@@ -242,23 +314,12 @@ class Small {
     const auto active = hn::FirstN(tag, count);
     const Vector fragment = hn::IfThenElse(active, hn::LoadU(tag, fragment_ + first), inactive);
     const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
-    const auto of_lane = [&](const std::int32_t* values)
-                             HWY_ATTR { return hn::TableLookupLanes(hn::Load(tag, values), lane); };
     const Vector column = hn::And(fragment, set(3));
     const Vector row = hn::And(hn::ShiftRight<2>(fragment), set(3));
-    // Word, code.
-    const auto right = hn::Ne(hn::And(column, set(2)), hn::Zero(tag));
-    const auto down = hn::Ne(hn::And(row, set(2)), hn::Zero(tag));
-    const Vector origin =
-        hn::IfThenElse(down, hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
-                       hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
-    const auto odd = [&](Vector v) HWY_ATTR { return hn::Ne(hn::And(v, set(1)), hn::Zero(tag)); };
-    const Vector word = hn::Add(origin, hn::Add(hn::IfThenElseZero(odd(column), of_lane(step_x_)),
-                                                hn::IfThenElseZero(odd(row), of_lane(step_y_))));
     const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values)
                                 HWY_ATTR { return hn::TableLookupLanes(field(values, first_), lane); };
-    const Vector code =
-        hn::Min(hn::Max(hn::ShiftRightSame(word, fraction_), lane_field(in_->low)), lane_field(in_->high));
+    const Vector any = is_float_ ? long_codes(fragment) : short_codes(fragment);
+    const Vector code = hn::Min(hn::Max(any, lane_field(in_->low)), lane_field(in_->high));
     // Where it is stored.
     const Vector x = hn::Add(hn::TableLookupLanes(found_.x, lane), column);
     const Vector y = hn::Add(hn::TableLookupLanes(found_.y, lane), row);
@@ -384,6 +445,7 @@ class Small {
   Windows<TileSize> windows_;
   const WindowBatch& found_;
   const int fraction_;
+  const bool is_float_;
   const bool touches_depth_;
 
   // Of the batch.
@@ -392,6 +454,11 @@ class Small {
   alignas(64) std::int32_t origin_[4][kWidth];  ///< by quad of the window
   alignas(64) std::int32_t step_x_[kWidth];
   alignas(64) std::int32_t step_y_[kWidth];
+  // Of a float32 surface.
+  alignas(64) std::int64_t long_origin_[4 * kWidth];
+  alignas(64) std::int64_t long_step_x_[kWidth];
+  alignas(64) std::int64_t long_step_y_[kWidth];
+  alignas(64) std::int64_t rebias_[kWidth];
 
   // Bursts are numbered 4 * lane + tile, their samples 16 * burst + bit.
   std::uint64_t burst_bits_ = 0;

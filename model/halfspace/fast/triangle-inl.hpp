@@ -137,6 +137,22 @@ HWY_INLINE void load_bounds(const Words& words, double unit, double least_margin
   }
 }
 
+/// Of a triangle with a slope.
+HWY_INLINE Plane plane_of(const SetUpTriangles& in, std::size_t at) {
+  return {.kind = static_cast<DepthKind>(in.kind[at]),
+          .low = in.low[at],
+          .high = in.high[at],
+          .add = in.added[at],
+          .x = in.x[at],
+          .y = in.y[at],
+          .z = in.z[at],
+          .dx = in.dx[at],
+          .dy = in.dy[at],
+          .dx_high = in.dx_high[at],
+          .dy_high = in.dy_high[at],
+          .exponent = in.exponent[at]};
+}
+
 template <int TileSize>
 HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const RasterTask& task, Triangle& out) {
   const EarlyZState& state = task.draw->early_z;
@@ -156,12 +172,7 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
   if (out.kind == DepthKind::kFlat) {
     return;
   }
-  plane.add = in.added[at];
-  plane.x = in.x[at];
-  plane.y = in.y[at];
-  plane.z = in.z[at];
-  plane.dx = in.dx[at];
-  plane.dy = in.dy[at];
+  plane = plane_of(in, at);
   if (out.kind == DepthKind::kShort) {
     out.short_words = ShortWords(plane, plane.dx, plane.dy, state.sub_pixel_bits);
     constexpr double kMargin = 2;
@@ -171,9 +182,6 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
     hn::Store(first_samples<TileSize>(out.short_words.step_x, out.short_words.step_y), Tag(),
               out.depth_steps);
   } else {
-    plane.dx_high = in.dx_high[at];
-    plane.dy_high = in.dy_high[at];
-    plane.exponent = in.exponent[at];
     out.long_words = long_words(plane, state.sub_pixel_bits);
     constexpr double kMargin = 0x1p-60;
     load_bounds<TileSize>(out.long_words, std::ldexp(1.0, kLongWordFraction - plane.exponent), kMargin, task,

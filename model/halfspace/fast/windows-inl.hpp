@@ -63,7 +63,7 @@ class Windows {
     const Vector side = hn::Max(extent(in.x_first, in.x_last), extent(in.y_first, in.y_last));
     const auto fits = hn::And(hn::Lt(steps, set(kMostStep)), hn::Lt(side, set(kSide)));
     return bits_of(
-        hn::And(fits, hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kLong)))));
+        hn::And(fits, hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kUnits)))));
   }
 
   /// Looks at `count` small triangles from `first` on, at most kWidth.
