@@ -171,7 +171,8 @@ class Small {
       const std::uint32_t x = static_cast<std::uint32_t>(in_->x_first[at]) & ~1u;
       const std::uint32_t y = static_cast<std::uint32_t>(in_->y_first[at]) & ~1u;
       for (std::uint32_t q = 0; q < 4; ++q) {
-        long_origin_[q * kWidth + lane] = static_cast<std::int64_t>(words.at(x + 2 * (q & 1), y + 2 * (q >> 1)));
+        long_origin_[q * kWidth + lane] =
+            static_cast<std::int64_t>(words.at(x + 2 * (q & 1), y + 2 * (q >> 1)));
       }
       long_step_x_[lane] = static_cast<std::int64_t>(words.step_x);
       long_step_y_[lane] = static_cast<std::int64_t>(words.step_y);
@@ -198,7 +199,8 @@ class Small {
     constexpr int kLaneShift = std::countr_zero(static_cast<unsigned>(kWidth));
     const WideVector lane = hn::ShiftRight<6>(fragment);
     const WideVector quad = hn::Add(bit(1), hn::ShiftLeft<1>(bit(3)));
-    const WideVector origin = hn::GatherIndex(wide, long_origin_, hn::Add(hn::ShiftLeft<kLaneShift>(quad), lane));
+    const WideVector origin =
+        hn::GatherIndex(wide, long_origin_, hn::Add(hn::ShiftLeft<kLaneShift>(quad), lane));
     const WideVector right = hn::IfThenElseZero(is_odd(0), hn::GatherIndex(wide, long_step_x_, lane));
     const WideVector down = hn::IfThenElseZero(is_odd(2), hn::GatherIndex(wide, long_step_y_, lane));
     return float_codes(hn::Add(origin, hn::Add(right, down)), hn::GatherIndex(wide, rebias_, lane));
@@ -208,15 +210,14 @@ class Small {
   HWY_INLINE Vector short_codes(Vector fragment) const {
     const Tag tag;
     const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
-    const auto of_lane = [&](const std::int32_t* values) HWY_ATTR {
-      return hn::TableLookupLanes(hn::Load(tag, values), lane);
-    };
-    const auto is_set = [&](std::int32_t bit) HWY_ATTR {
-      return hn::Ne(hn::And(fragment, set(bit)), hn::Zero(tag));
-    };
+    const auto of_lane = [&](const std::int32_t* values)
+                             HWY_ATTR { return hn::TableLookupLanes(hn::Load(tag, values), lane); };
+    const auto is_set = [&](std::int32_t bit)
+                            HWY_ATTR { return hn::Ne(hn::And(fragment, set(bit)), hn::Zero(tag)); };
     const auto right = is_set(2);
-    const Vector origin = hn::IfThenElse(is_set(8), hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
-                                         hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
+    const Vector origin =
+        hn::IfThenElse(is_set(8), hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
+                       hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
     const Vector word = hn::Add(origin, hn::Add(hn::IfThenElseZero(is_set(1), of_lane(step_x_)),
                                                 hn::IfThenElseZero(is_set(4), of_lane(step_y_))));
     return hn::ShiftRightSame(word, fraction_);

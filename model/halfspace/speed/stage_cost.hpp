@@ -23,8 +23,9 @@ struct StageCost {
 };
 
 struct StageCosts {
-  std::vector<StageCost> stages;   ///< in order; those of a pass add up to a whole run
-  std::vector<double> functional;  ///< milliseconds of run_functional() on the readable core in the same passes
+  std::vector<StageCost> stages;  ///< in order; those of a pass add up to a whole run
+  std::vector<double>
+      functional;  ///< milliseconds of run_functional() on the readable core in the same passes
 };
 
 /// Runs every prefix in turn, `repeat` times and once more to warm up.
