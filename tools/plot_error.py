@@ -23,7 +23,8 @@ SCHEMA = ("halfspace-error", 2)
 # Fidelity: marker, colour (of Okabe and Ito, which the colour-blind can tell apart).
 STYLE = {
     "functional": ("D", "#999999"),
-    "analytic": ("o", "#D55E00"),
+    "sampled": ("o", "#D55E00"),
+    "retime": ("v", "#56B4E9"),
     "recurrence": ("s", "#0072B2"),
     "systemc": ("^", "#009E73"),
     "rtl": ("P", "#000000"),

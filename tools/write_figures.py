@@ -22,7 +22,6 @@ from replace_block import replaced
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCENES = sorted(path.relative_to(ROOT) for path in (ROOT / "scenes").glob("*.ptf.xz"))
-MACHINES = ("baseline", "small", "wide", "shallow", "slow_memory")
 CAPTURED = " (captured)"
 
 
@@ -150,16 +149,16 @@ def error(tools):
     return f"{processor()}.\n\n" + marked(text, map(frame_name, tools.captured))
 
 
-def bench_analytic(tools):
-    configs = [word for name in MACHINES for word in ("--config", f"configs/{name}.toml")]
-    return table(tools, "analytic", *configs)
+def bench_sampled(tools):
+    lists = [f"synthetic:{name}:full" for name in ("medium", "large_ftb", "mesh_crowd")]
+    return table(tools, "sampled", *lists)
 
 
 FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
-    "bench-analytic": ("docs/guides/time.md", bench_analytic),
+    "bench-sampled": ("docs/guides/time.md", bench_sampled),
     "reference": ("docs/guides/reference.md", reference),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),

@@ -141,13 +141,6 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
     CAPTURE(outcome.out);
     CHECK(outcome.status == 0);
   }
-  SECTION("so has one that only estimates it") {
-    REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);
-    REQUIRE(place.run(run + "/b --fidelity analytic").status == 0);
-    const Outcome outcome = place.run(diff);
-    CAPTURE(outcome.out);
-    CHECK(outcome.status == 0);
-  }
   SECTION("the two engines that move packets agree in everything") {
     const std::string stalls = " --stall source:30:9 --stall edge_evaluator:20:30 --seed 4";
     REQUIRE(place.run(run + "/a --fidelity recurrence" + stalls).status == 0);
@@ -207,8 +200,8 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
     check_error(place.run(timed + " --seed=" + seed), {"--seed", seed, "0 to 18446744073709551615"});
   }
   check_error(place.run("run " + cube + " --stall sink:10:4"), {"--stall", "functional", "recurrence"});
-  check_error(place.run("run " + cube + " --fidelity analytic --stall sink:10:4"),
-              {"--stall", "analytic", "recurrence, systemc"});
+  check_error(place.run("run " + cube + " --fidelity sampled"),
+              {"--fidelity", "sampled", "functional,recurrence,systemc,rtl"});
   check_error(place.run("run " + cube + " --fidelity recurrence --vcd w.vcd"),
               {"--vcd", "recurrence", "systemc"});
   check_error(place.run("run " + cube + " --fidelity systemc --vcd /proc/nowhere/w"),
@@ -287,20 +280,29 @@ TEST_CASE("run: stalls are a function of their seed, cost time and nothing else"
   CHECK(slurp(place.path / "a" / "depth0.npy") == slurp(place.path / "plain" / "depth0.npy"));
 }
 
-TEST_CASE("run: an estimate has the cycles of the frame and of each draw, and what bounds it") {
+TEST_CASE("retime: a table of machines, exact or sampled") {
   const Place place;
-  const fs::path out = place.path / "result";
+  const std::string record = (place.path / "truck.rec").string();
+  REQUIRE(place.run("record " + scene("cc0_truck.ptf.xz") + " --out " + record).status == 0);
+  const std::string sweep = "retime " + record + " --sweep memory.latency=20,200 --json ";
+  std::vector<Json> results;
+  for (const std::string fidelity : {"recurrence", "sampled"}) {
+    const std::string file = (place.path / fidelity).string();
+    const Outcome outcome = place.run(sweep + file + " --fidelity " + fidelity);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.out.find("| cc0_truck | recorded | 200 | ") != std::string::npos);
+    results.push_back(Json::parse(slurp(file)));
+    CHECK(results.back()["fidelity"] == fidelity);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double exact = results[0]["machines"][i]["cycles"].get<double>();
+    const double sampled = results[1]["machines"][i]["cycles"].get<double>();
+    CHECK(sampled != exact);
+    CHECK(sampled == Approx(exact).epsilon(0.15));
+  }
   const Outcome outcome =
-      place.run("run " + scene("vkcube.ptf.xz") + " --no-pictures --fidelity analytic --out " + out.string());
-  REQUIRE(outcome.status == 0);
-  CHECK(outcome.out.find("quads a cycle\n") != std::string::npos);
-  CHECK(outcome.out.find("cycles of the draws that it bounds") != std::string::npos);
-  const Json stats = read_stats(out);
-  CHECK(stats["seed"].is_null());
-  CHECK(stats["frame"]["time"]["cycles"] == stats["cycles"]);
-  CHECK(!stats["frame"]["time"].contains("stages"));
-  CHECK(stats["draws"][0]["time"]["bound"] == "quad_generator");
-  CHECK(stats["draws"][0]["time"]["cycles"] < stats["cycles"]);
+      place.run("retime " + record + " --fidelity sampled --set tile_walker.tile_size=16");
+  check_error(outcome, {"tile_walker.tile_size", "a new record"});
 }
 
 TEST_CASE("run: systemc writes a waveform") {

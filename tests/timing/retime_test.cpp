@@ -83,17 +83,14 @@ TEST_CASE("a machine too slow for 32 bits is re-timed in 64, and the bound holds
     const Frame frame = random_frame(random);
     const FrameRecord record = record_frame(frame, config);
     const ZTrace trace = trace_z_cache(record, {.lines = 1, .ways = 1, .parts = 1});
-    FrameWork work;
-    work.add(whole_stream(record, trace), record.surfaces);
-    work.flush = trace.flush;
-    const std::uint64_t bound = detail::longest_time(work, work.sum(), config);
+    const FrameWork work = frame_work(whole_stream(record, trace), record.surfaces, trace.flush);
+    const std::uint64_t bound = longest_time(work, config);
     CHECK(full_run(frame, config).cycles <= bound);
   }
   // 2^16 fetches of 2^16 cycles each: only the bound is looked at
   FrameWork work;
-  work.draws.emplace_back();
-  work.draws[0].fetched[8] = 1 << 16;
-  CHECK(detail::longest_time(work, work.sum(), config) > (std::uint64_t{1} << 32));
+  work.fetched[8] = 1 << 16;
+  CHECK(longest_time(work, config) > (std::uint64_t{1} << 32));
 }
 
 TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]") {
@@ -135,41 +132,7 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
     CHECK_THROWS_WITH(retimer.retime(config), Catch::Contains("'" + std::string(key) + "' is " + value) &&
                                                   Catch::Contains("a new record"));
     CHECK_THROWS_AS(retimer.retime(std::vector<Config>{Config{}, config}), InputError);
-    CHECK_THROWS_AS(retimer.analytic(config), InputError);
-  }
-}
-
-TEST_CASE("the analytic fidelity says the same of a frame and of its record", "[timing]") {
-  Random random(seed());
-  for (int run = 0; run < 40; ++run) {
-    CAPTURE(seed(), run);
-    const Config config = random_config(random);
-    const Frame frame = random_frame(random);
-    const AnalyticFrame direct = run_analytic(frame, config).estimate;
-    const AnalyticFrame recorded = Retimer(record_frame(frame, config)).analytic(config);
-    REQUIRE(recorded.cycles == direct.cycles);
-    REQUIRE(recorded.draws.size() == direct.draws.size());
-    for (std::size_t i = 0; i < direct.draws.size(); ++i) {
-      REQUIRE(recorded.draws[i].cycles == direct.draws[i].cycles);
-      REQUIRE(recorded.draws[i].bound == direct.draws[i].bound);
-    }
-  }
-}
-
-TEST_CASE("a draw alone never beats its analytic bound", "[timing]") {
-  // the busiest unit needs its cycles whatever the others do
-  Random random(seed());
-  for (int run = 0; run < 60; ++run) {
-    CAPTURE(seed(), run);
-    Config config = random_config(random);
-    const Frame frame = random_frame(random);
-    const AnalyticFrame estimate = run_analytic(frame, config).estimate;
-    const std::uint64_t cycles = full_run(frame, config).cycles;
-    for (const AnalyticDraw& draw : estimate.draws) {
-      if (draw.bound != Bound::kMemoryLatency) {  // an average over lines of different sizes
-        CHECK(draw.cycles <= cycles);
-      }
-    }
+    CHECK_THROWS_AS(retimer.estimate(std::vector<Config>{config}), InputError);
   }
 }
 

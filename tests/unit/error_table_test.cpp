@@ -43,13 +43,12 @@ FidelityRun made_up(const std::string& fidelity) {
   return run;
 }
 
-FidelityRun estimated(std::initializer_list<std::uint64_t> draws, std::uint64_t cycles) {
-  FidelityRun run = made_up("analytic");
-  run.cycles.reset();
-  run.estimate.emplace().cycles = cycles;
-  for (const std::uint64_t each : draws) {
-    run.estimate->draws.push_back({.cycles = each, .bound = Bound::kSetup});
-  }
+/// Of a record: no function, draws and stages.
+FidelityRun estimated(std::uint64_t cycles) {
+  FidelityRun run;
+  run.fidelity = "sampled";
+  run.milliseconds = {5, 4, 3};
+  run.record_cycles = cycles;
   return run;
 }
 
@@ -62,8 +61,8 @@ FidelityError changed(const std::function<void(FidelityRun&)>& change) {
 
 ErrorTable small_table() {
   ErrorTable table{.config = {}, .repeat = 3, .workloads = {}};
-  std::vector<FidelityRun> runs{made_up("functional"), estimated({900, 2500, 4000, 500}, 7000),
-                                made_up("recurrence"), made_up("rtl")};
+  std::vector<FidelityRun> runs{made_up("functional"), estimated(7000), made_up("recurrence"),
+                                made_up("rtl")};
   runs[0].cycles.reset();
   runs[3].milliseconds = {100};
   runs[3].rtl = {.compared = 55, .different = 0, .first = {}};
@@ -135,16 +134,13 @@ TEST_CASE("error table: draws are compared by their own cycles") {
     CHECK(line.draws->off == 1);
     CHECK(line.draws->draws == 4);
   }
-  SECTION("of an estimate") {
-    const FidelityError line = compare_to_rtl(estimated({1100, 2000, 5000, 400}, 7000), made_up("rtl"));
+  SECTION("of a record there are none") {
+    const FidelityError line = compare_to_rtl(estimated(7000), made_up("rtl"));
     CHECK(line.cycles == 7000);
     CHECK(line.error->cycles == -100);
-    CHECK(line.draws->off == 3);
-    CHECK(line.draws->cycles_off == 100 + 1000 + 390);
-    CHECK(line.draws->mean_percent == Approx((10.0 + 0 + 25.0) / 3));
-    CHECK(line.draws->worst_draw == 2);
-    CHECK(line.draws->worst_percent == Approx(25));
+    CHECK_FALSE(line.draws);
     CHECK_FALSE(line.stages);
+    CHECK_FALSE(line.function);
   }
 }
 
@@ -228,12 +224,12 @@ TEST_CASE("error table: what a person reads") {
   const std::string text = error_markdown(small_table());
   CAPTURE(text);
   CHECK_THAT(text, Contains("| functional | - | 25.0 | - | - | - | - | 0 |"));
-  CHECK_THAT(text, Contains("| analytic | 1.77 | 25.0 | 1.41 | -1.41 (frame) | 3 of 4 | - | 0 |"));
+  CHECK_THAT(text, Contains("| sampled | 1.77 | 25.0 | 1.41 | -1.41 (frame) | - | - | - |"));
   CHECK_THAT(text, Contains("| recurrence | 1.77 | 25.0 | 0 | 0 | 0 of 4 | 0 | 0 |"));
   CHECK_THAT(text, Contains("| frame | functional | 4.00 | - | - | - | - | - | - | - | - | - | - | 0 | - |"));
-  CHECK_THAT(text,
-             Contains("| frame | analytic | 4.00 | 7000 | 1.75 | -100 | -1.41 | 3 of 4 | +5.00 | 11.67 | "
-                      "+25.00 (draw 1) | - | - | 0 | - |"));
+  CHECK_THAT(
+      text,
+      Contains("| frame | sampled | 4.00 | 7000 | 1.75 | -100 | -1.41 | - | - | - | - | - | - | - | - |"));
   CHECK_THAT(
       text,
       Contains("| frame | recurrence | 4.00 | 7100 | 1.77 | 0 | 0 | 0 of 4 | 0 | 0 | 0 | 0 | - | 0 | - |"));
@@ -262,7 +258,7 @@ TEST_CASE("error table: every line of the CSV has as many cells as its head") {
     CHECK(std::ranges::count(line, ',') == commas);
   }
   CHECK(count == 5);
-  CHECK_THAT(text, Contains("frame,analytic,3,4.0000,7000,1.75,-100,-1.408"));
+  CHECK_THAT(text, Contains("frame,sampled,3,4.0000,7000,1.75,-100,-1.408"));
 }
 
 TEST_CASE("error table: files, which are the same for the same table, and replaced by the next") {
@@ -286,7 +282,9 @@ TEST_CASE("error table: files, which are the same for the same table, and replac
   const auto& lines = json["workloads"][0]["fidelities"];
   CHECK(lines[0]["cycles"].is_null());
   CHECK(lines[1]["error"]["cycles"] == -100);
-  CHECK(lines[1]["draws"]["worst_draw"] == 1);
+  CHECK(lines[1]["draws"].is_null());
+  CHECK(lines[1]["function"].is_null());
+  CHECK(lines[2]["draws"]["draws"] == 4);
   CHECK(lines[2]["stages"]["z_test"]["cycles_off"] == 0);
   CHECK(lines[3]["runs"] == nlohmann::json{100});
   CHECK(slurp(place / "error.md") == error_markdown(small_table()));

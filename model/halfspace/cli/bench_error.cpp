@@ -14,6 +14,7 @@
 #include "halfspace/run/run.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
+#include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 
 namespace halfspace {
@@ -64,8 +65,37 @@ double run_once(Fidelity fidelity, const Frame& frame, const Config& config, con
   return time;
 }
 
+/// Times a record of the frame, exactly and by its sample, each into a run of its own.
+class RecordRuns {
+ public:
+  RecordRuns(const Frame& frame, const Config& config)
+      : config_(config), retimer_(record_frame(frame, config)) {
+    exact_.fidelity = "retime";
+    sampled_.fidelity = "sampled";
+  }
+
+  void turn(bool counts) {
+    const double exact = milliseconds([&] { exact_.record_cycles = retimer_.retime(config_).cycles; });
+    const double sampled = milliseconds([&] { sampled_.record_cycles = retimer_.estimate(config_); });
+    if (counts) {
+      exact_.milliseconds.push_back(exact);
+      sampled_.milliseconds.push_back(sampled);
+    }
+  }
+
+  [[nodiscard]] const FidelityRun& exact() const { return exact_; }
+  [[nodiscard]] const FidelityRun& sampled() const { return sampled_; }
+
+ private:
+  Config config_;
+  Retimer retimer_;
+  FidelityRun exact_;
+  FidelityRun sampled_;
+};
+
 WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOptions& options) {
   std::vector<FidelityRun> runs(kFidelityInfo.size());
+  RecordRuns record(frame, config);
   ProgressBar bar(frame.name);
   const auto turns = static_cast<std::size_t>(options.repeat) + 1;
   double rtl_time = 0;
@@ -85,7 +115,10 @@ WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOpti
         runs[i].milliseconds.push_back(time);
       }
     }
+    record.turn(turn > 0);
   }
+  runs.push_back(record.exact());
+  runs.push_back(record.sampled());
   return compare_fidelities(frame.name, runs);
 }
 

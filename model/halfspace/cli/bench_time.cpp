@@ -8,7 +8,6 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
-#include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
@@ -41,11 +40,11 @@ std::vector<Config> neighbours(const Config& config) {
 
 void print_times(const Frame& frame, const Config& config, int repeat) {
   std::vector<double> functional;
-  std::vector<double> analytic;
   std::vector<double> recurrence;
   std::vector<double> systemc;
   std::vector<double> one;
   std::vector<double> batch;
+  std::vector<double> sampled;
   std::vector<double> singly;
   std::uint64_t cycles = 0;
   std::uint64_t events = 0;
@@ -57,11 +56,11 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
     std::vector<RetimedFrame> each;
     const double times[] = {
         milliseconds([&] { run_functional(frame, config); }),
-        milliseconds([&] { run_analytic(frame, config); }),
         milliseconds([&] { cycles = run_recurrence(frame, config).cycles.cycles; }),
         milliseconds([&] { events = run_systemc(frame, config).cycles.cycles; }),
         milliseconds([&] { retimed = retimer.retime(config); }),
         milliseconds([&] { all = retimer.retime(machines); }),
+        milliseconds([&] { retimer.estimate(machines); }),
         milliseconds([&] {
           for (const Config& machine : machines) {
             each.push_back(retimer.retime(machine));
@@ -76,28 +75,28 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
       continue;
     }
     std::size_t k = 0;
-    for (std::vector<double>* list : {&functional, &analytic, &recurrence, &systemc, &one, &batch, &singly}) {
+    for (std::vector<double>* list : {&functional, &recurrence, &systemc, &one, &batch, &sampled, &singly}) {
       list->push_back(times[k++]);
     }
   }
   const double f = median(functional);
   const double r = median(recurrence);
   fmt::print(
-      "| {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} "
-      "| {:.0f} |\n",
-      frame.name, cycles, f, median(analytic), r, median(systemc), median(one), median(batch), r / f,
+      "| {} | {} | {:.1f} | {:.1f} | {:.0f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.1f} | "
+      "{:.0f} | {:.1f} |\n",
+      frame.name, cycles, f, r, median(systemc), median(one), median(batch), median(sampled), r / f,
       median(systemc) / r, r / median(one), median(singly) / median(batch),
-      r * static_cast<double>(machines.size()) / median(batch));
+      r * static_cast<double>(machines.size()) / median(batch), median(batch) / median(sampled));
 }
 
 void bench_time(const TimeOptions& options) {
   const Config config = options.machine.config();
   fmt::print("one thread, medians of {} runs in turns, ms\n\n", options.repeat);
   fmt::print(
-      "| frame | cycles | functional | analytic | recurrence | systemc | retime | retime 64 | recurrence / "
-      "functional | systemc / recurrence | recurrence / retime | 64 x retime / retime 64 | 64 x "
-      "recurrence / retime 64 |\n");
-  fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+      "| frame | cycles | functional | recurrence | systemc | retime | retime 64 | sampled 64 | recurrence / "
+      "functional | systemc / recurrence | recurrence / retime | 64 x retime / retime 64 | 64 x recurrence / "
+      "retime 64 | retime 64 / sampled 64 |\n");
+  fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
     print_times(load(input), config, options.repeat);
   }

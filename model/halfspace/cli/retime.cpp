@@ -112,10 +112,8 @@ void retime(const RetimeOptions& options) {
   make_machines(options, sweeps, record.config, machines, configs);
 
   std::vector<std::uint64_t> cycles;
-  if (options.fidelity == "analytic") {
-    for (const Config& config : configs) {
-      cycles.push_back(retimer.analytic(config).cycles);
-    }
+  if (options.fidelity == "sampled") {
+    cycles = retimer.estimate(configs);
   } else {
     for (const RetimedFrame& frame : retimer.retime(configs)) {
       cycles.push_back(frame.cycles);
@@ -180,8 +178,10 @@ void add_retime_command(CLI::App& app, int& /*status*/) {
       ->add_option("--sweep", options->sweeps, "try each of the values, repeatable: tries all combinations")
       ->type_name("KEY=VALUE,VALUE,...")
       ->allow_extra_args(false);
-  command->add_option("--fidelity", options->fidelity, "recurrence: exact; analytic: an estimate")
-      ->check(CLI::IsMember({"recurrence", "analytic"}))
+  command
+      ->add_option("--fidelity", options->fidelity,
+                   "recurrence: exact; sampled: an estimate, ten times as fast for a large frame")
+      ->check(CLI::IsMember({"recurrence", "sampled"}))
       ->capture_default_str();
   command->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");
   command->add_option("--json", options->json, "write the table as JSON too")->type_name("FILE");

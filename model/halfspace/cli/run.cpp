@@ -109,7 +109,7 @@ int run_command(const RunCommand& command) {
   const RunResult result = run(fidelity, frame, config, options);
   observer.finish();
   if (timeline) {
-    timeline->finish(*result.frame_cycles());
+    timeline->finish(result.cycles->cycles);
   }
   if (folder) {
     write_result_files(*folder, frame, config, fidelity, options.stalls, result, observer);

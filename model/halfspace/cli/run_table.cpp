@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,19 +19,6 @@ double percent(std::uint64_t part, std::uint64_t whole) {
 
 void row(std::string_view unit, std::uint64_t value, const std::string& what) {
   fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);
-}
-
-/// What bounds the draws, by the cycles of those it bounds.
-void print_bounds(const AnalyticFrame& frame) {
-  std::array<std::uint64_t, kBounds> cycles{};
-  for (const AnalyticDraw& draw : frame.draws) {
-    cycles[static_cast<std::size_t>(draw.bound)] += draw.cycles;
-  }
-  for (std::size_t i = 0; i < kBounds; ++i) {
-    if (cycles[i] != 0) {
-      row(kBoundName[i], cycles[i], "cycles of the draws that it bounds");
-    }
-  }
 }
 
 /// Where the cycles went: each stage's two largest reasons to wait, memory.
@@ -102,14 +88,11 @@ bool print_report(const rtl::PacketReport& report) {
 
 bool print_result(const Frame& frame, const RunResult& result) {
   print_table(frame, result.frame);
-  if (const std::optional<std::uint64_t> cycles = result.frame_cycles()) {
-    const auto quads = static_cast<double>(result.frame.counters.quad_generator.quads);
-    row("cycles", *cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(*cycles)));
-  }
   if (result.cycles) {
+    const std::uint64_t cycles = result.cycles->cycles;
+    const auto quads = static_cast<double>(result.frame.counters.quad_generator.quads);
+    row("cycles", cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(cycles)));
     print_cycles(result.frame, *result.cycles);
-  } else if (result.estimate) {
-    print_bounds(*result.estimate);
   }
   return !result.rtl || print_report(*result.rtl);
 }

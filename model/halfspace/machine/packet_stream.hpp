@@ -1,9 +1,9 @@
 /// The packets of a frame as a stream: all that time depends on, and nothing that only function needs.
 ///
 /// Whoever runs the units writes it (machine/in_order.hpp), in chunks; whoever has time reads it: the
-/// recurrence, its lanes, the analytic engine, the record. A tile job is one word whatever it holds, and a
-/// burst that has to do with stored depth one more. Chunks may end anywhere, also inside a triangle; put
-/// together in order they are the stream of the frame.
+/// recurrence, its lanes, the record. A tile job is one word whatever it holds, and a burst that has to do
+/// with stored depth one more. Chunks may end anywhere, also inside a triangle; put together in order they
+/// are the stream of the frame.
 #pragma once
 
 #include <cstdint>

@@ -180,10 +180,9 @@ StatsJson read_stats(const fs::path& folder) {
   return stats;
 }
 
-/// Time is compared where both have as much of it: none, an estimate, or that of every packet.
-int time_detail(const StatsJson& stats) {
-  const StatsJson time = stats.value("frame", StatsJson::object()).value("time", StatsJson());
-  return time.is_null() ? 0 : time.contains("stages") ? 2 : 1;
+/// Time is compared where both have it.
+bool has_time(const StatsJson& stats) {
+  return !stats.value("frame", StatsJson::object()).value("time", StatsJson()).is_null();
 }
 
 void remove_time(StatsJson& stats) {
@@ -236,7 +235,7 @@ ResultDifference compare_results(const fs::path& a, const fs::path& b) {
   const StatsJson b_stats = read_stats(b);
   const std::set<std::string> a_files = arrays_of(a_stats);
   const std::set<std::string> b_files = arrays_of(b_stats);
-  const bool with_time = time_detail(a_stats) == time_detail(b_stats);
+  const bool with_time = has_time(a_stats) == has_time(b_stats);
   ResultDifference result;
   std::set_intersection(a_files.begin(), a_files.end(), b_files.begin(), b_files.end(),
                         std::back_inserter(result.compared));

@@ -22,9 +22,9 @@ struct ResultDifference {
 };
 
 /// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters and cycles in stats.json (not
-/// configuration, tool versions, pictures and timeline). Where one run has more of time than the other (none,
-/// an estimate, that of every packet), what has to do with time is left out, the field `cycle` of the quads
-/// too. Throws InputError where a folder is not a result or a file is damaged.
+/// configuration, tool versions, pictures and timeline). Where only one run has time, what has to do with it
+/// is left out, the field `cycle` of the quads too. Throws InputError where a folder is not a result or a
+/// file is damaged.
 ResultDifference compare_results(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace halfspace

@@ -57,14 +57,6 @@ std::vector<std::uint64_t> spans(const FrameCycles& frame) {
   return cycles;
 }
 
-std::vector<std::uint64_t> spans(const AnalyticFrame& frame) {
-  std::vector<std::uint64_t> cycles;
-  for (const AnalyticDraw& draw : frame.draws) {
-    cycles.push_back(draw.cycles);
-  }
-  return cycles;
-}
-
 DrawErrors compare_draws(const std::vector<std::uint64_t>& draws, const std::vector<std::uint64_t>& truth) {
   DrawErrors errors{.draws = truth.size()};
   for (std::size_t i = 0; i < std::max(draws.size(), truth.size()); ++i) {
@@ -267,7 +259,7 @@ std::string summary_markdown(const ErrorTable& table) {
         !timed                 ? std::string(kNone)
         : s.worst_percent == 0 ? "0"
                                : fmt::format("{} ({})", signed_percent(s.worst_percent), s.worst_workload),
-        timed ? fmt::format("{} of {}", s.draws_off, s.draws) : kNone,
+        s.stages_off ? fmt::format("{} of {}", s.draws_off, s.draws) : kNone,
         s.stages_off ? std::to_string(*s.stages_off) : kNone,
         s.function ? std::to_string(*s.function) : kNone);
   }
@@ -458,17 +450,20 @@ FidelityError compare_to_rtl(const FidelityRun& run, const FidelityRun& rtl) {
   line.fidelity = run.fidelity;
   line.milliseconds = run.milliseconds;
   line.packets = run.rtl;
-  line.cycles = run.frame_cycles();
+  line.cycles = run.cycles ? run.cycles->cycles : run.record_cycles;
   if (&run == &rtl) {
     return line;
   }
   const FrameCycles& truth = rtl.cycles.value();
-  line.function = compare_function(run.frame, rtl.frame);
   if (line.cycles) {
     line.error = {.truth = truth.cycles, .cycles = difference(*line.cycles, truth.cycles)};
-    line.draws = compare_draws(run.cycles ? spans(*run.cycles) : spans(*run.estimate), spans(truth));
   }
+  if (run.record_cycles) {
+    return line;
+  }
+  line.function = compare_function(run.frame, rtl.frame);
   if (run.cycles) {
+    line.draws = compare_draws(spans(*run.cycles), spans(truth));
     line.stages.emplace();
     for (std::size_t i = 0; i < kStages; ++i) {
       (*line.stages)[i] = compare_stage(kStageInfo[i], run.cycles->stats.stage[i], truth.stats.stage[i]);

@@ -19,9 +19,10 @@ inline constexpr const char* kErrorFile = "error.json";
 inline constexpr const char* kErrorSchema = "halfspace-error";
 inline constexpr int kErrorSchemaVersion = 2;
 
-/// A fidelity on a frame, as it ran.
+/// A fidelity on a frame, as it ran. A record that is timed gives the frame's cycles and nothing else.
 struct FidelityRun : RunResult {
   std::string fidelity;
+  std::optional<std::uint64_t> record_cycles;
   std::vector<double> milliseconds;  ///< of each timed run, at least one
 };
 

@@ -100,10 +100,6 @@ Json draw_time_json(const DrawCycles& draw, const EarlyZCounters& counters) {
           {"memory", memory_json(draw.stats, counters.bytes_read, counters.bytes_written)}};
 }
 
-Json draw_time_json(const AnalyticDraw& draw) {
-  return {{"cycles", draw.cycles}, {"bound", kBoundName[static_cast<std::size_t>(draw.bound)]}};
-}
-
 Json stalls_json(const StallPlan& plan) {
   Json json = Json::object();
   for (std::size_t i = 0; i < kStallPoints; ++i) {
@@ -137,8 +133,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
   json["fidelity"] = info(fidelity).name;
   json["core"] = info(fidelity).core ? Json(kCoreName[static_cast<std::size_t>(result.core)]) : Json();
-  const std::optional<std::uint64_t> cycles = run.frame_cycles();
-  json["cycles"] = cycles ? Json(*cycles) : Json();
+  json["cycles"] = run.cycles ? Json(run.cycles->cycles) : Json();
   json["seed"] = packets ? Json(stalls.seed) : Json();
   json["stalls"] = packets ? stalls_json(stalls) : Json();
   for (const ConfigKey& key : config_keys(config)) {
@@ -155,11 +150,10 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                    {"flushed_bytes", result.flushed_bytes},
                    {"counters", counters_json(result.counters)},
                    {"drawn_clears", counters_json(result.drawn_clears)}};
-  if (cycles) {
-    json["frame"]["time"] = {{"cycles", *cycles},
-                             {"quads_per_cycle", ratio(result.counters.quad_generator.quads, *cycles)}};
-  }
   if (run.cycles) {
+    const std::uint64_t cycles = run.cycles->cycles;
+    json["frame"]["time"] = {{"cycles", cycles},
+                             {"quads_per_cycle", ratio(result.counters.quad_generator.quads, cycles)}};
     json["frame"]["time"].update(frame_time_json(*run.cycles, result));
   }
   json["surfaces"] = Json::array();
@@ -183,8 +177,6 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"counters", counters_json(draw.counters)}});
     if (run.cycles) {
       json["draws"].back()["time"] = draw_time_json(run.cycles->draws[i], draw.counters.early_z);
-    } else if (run.estimate) {
-      json["draws"].back()["time"] = draw_time_json(run.estimate->draws[i]);
     }
   }
   json["files"] = files;

@@ -43,7 +43,6 @@ std::string fidelity_names(bool FidelityInfo::*support = nullptr) {
 RunResult timed(TimedResult result) {
   return {.frame = std::move(result.frame),
           .cycles = std::move(result.cycles),
-          .estimate = {},
           .times = std::move(result.times),
           .rtl = {}};
 }
@@ -86,19 +85,7 @@ RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const
                              .observer = options.cycle_observer};
   switch (fidelity) {
     case Fidelity::kFunctional:
-      return {.frame = run_functional(frame, config, options.watch),
-              .cycles = {},
-              .estimate = {},
-              .times = {},
-              .rtl = {}};
-    case Fidelity::kAnalytic: {
-      AnalyticResult result = run_analytic(frame, config, options.watch);
-      return {.frame = std::move(result.frame),
-              .cycles = {},
-              .estimate = std::move(result.estimate),
-              .times = {},
-              .rtl = {}};
-    }
+      return {.frame = run_functional(frame, config, options.watch), .cycles = {}, .times = {}, .rtl = {}};
     case Fidelity::kRecurrence:
       return timed(run_recurrence(frame, config, engine));
     case Fidelity::kSystemc:

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "halfspace/machine/frame_result.hpp"
-#include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/rtl/packet_check.hpp"
 
@@ -22,7 +21,6 @@ namespace halfspace {
 ///   rtl       it runs the verilated SystemVerilog
 #define HALFSPACE_FIDELITIES(F)                                  \
   F(Functional, functional, true,  false, false, false, false)    \
-  F(Analytic,   analytic,   true,  false, false, false, false)    \
   F(Recurrence, recurrence, true,  true,  true,  false, false)    \
   F(Systemc,    systemc,    false, true,  false, true,  false)    \
   F(Rtl,        rtl,        false, true,  false, false, true)
@@ -52,14 +50,9 @@ constexpr const FidelityInfo& info(Fidelity fidelity) {
 
 struct RunResult {
   FrameResult frame;
-  std::optional<FrameCycles> cycles;      ///< where the fidelity has packets
-  std::optional<AnalyticFrame> estimate;  ///< of `analytic`
-  PacketTimes times;                      ///< on request, where the fidelity has packets
-  std::optional<rtl::PacketReport> rtl;   ///< of `rtl`: where it differs from the model
-
-  [[nodiscard]] std::optional<std::uint64_t> frame_cycles() const {
-    return cycles ? std::optional(cycles->cycles) : estimate ? std::optional(estimate->cycles) : std::nullopt;
-  }
+  std::optional<FrameCycles> cycles;     ///< where the fidelity has time
+  PacketTimes times;                     ///< on request, where the fidelity has time
+  std::optional<rtl::PacketReport> rtl;  ///< of `rtl`: where it differs from the model
 };
 
 }  // namespace halfspace

@@ -44,6 +44,58 @@ RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Co
   return result;
 }
 
+/// Positions of the machines that share the shape of the z cache. Throws as check_retimable.
+std::vector<std::vector<std::size_t>> groups(const FrameRecord& record, std::span<const Config> configs) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<ZCacheShape> shapes;
+  for (std::size_t i = 0; i < configs.size(); ++i) {
+    check_retimable(record, configs[i]);
+    const ZCacheShape shape = z_cache_shape(configs[i]);
+    const auto at = static_cast<std::size_t>(std::ranges::find(shapes, shape) - shapes.begin());
+    if (at == shapes.size()) {
+      shapes.push_back(shape);
+      groups.emplace_back();
+    }
+    groups[at].push_back(i);
+  }
+  return groups;
+}
+
+/// Fills the `results` of a group, whose z cache is that of `trace`.
+void retime_group(const FrameRecord& record, const ZTrace& trace, const FrameWork& work,
+                  std::span<const Config> configs, std::span<const std::size_t> group,
+                  std::span<RetimedFrame> results) {
+  struct Place {
+    bool slow;
+    std::array<int, kFifos> capacity;
+    std::size_t i;
+  };
+  std::vector<Place> places;
+  places.reserve(group.size());
+  for (const std::size_t i : group) {
+    const bool wide = longest_time(work, configs[i]) > std::numeric_limits<std::uint32_t>::max();
+    if (wide || group.size() == 1) {  // it needs 64 bits, or is faster without lanes
+      results[i] = retime_one(record, trace, configs[i]);
+      continue;
+    }
+    const bool slow = detail::longest_job(configs[i], work.most_steps) > detail::kNarrowRoom;
+    places.push_back({.slow = slow, .capacity = capacities(configs[i]), .i = i});
+  }
+  // a pass is as wide as its slowest machine needs, and costs less where capacities are the same
+  std::ranges::sort(places, {},
+                    [](const Place& place) { return std::tie(place.slow, place.capacity, place.i); });
+  std::vector<Config> machines;
+  machines.reserve(places.size());
+  for (const Place& place : places) {
+    machines.push_back(configs[place.i]);
+  }
+  std::vector<RetimedFrame> retimed(places.size());
+  detail::retime_lanes(record, trace, machines, work.most_steps, retimed.data());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    results[places[k].i] = std::move(retimed[k]);
+  }
+}
+
 }  // namespace
 
 void check_retimable(const FrameRecord& record, const Config& config) {
@@ -62,28 +114,17 @@ void check_retimable(const FrameRecord& record, const Config& config) {
   }
 }
 
-Retimer::Retimer(FrameRecord record) : record_(std::move(record)) {
-  for (const StreamJob& job : record_.packets.jobs) {
-    most_steps_ = std::max(most_steps_, job.steps());
-  }
-  for (const StreamTriangle& triangle : record_.packets.triangles) {
-    most_steps_ = std::max(most_steps_, triangle.steps_after);
-  }
-  traced(z_cache_shape(record_.config));
-}
+Retimer::Retimer(FrameRecord record) : record_(std::move(record)) { traced(z_cache_shape(record_.config)); }
 
-const Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
-  for (const Traced& known : traced_) {
+Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
+  for (Traced& known : traced_) {
     if (known.shape == shape) {
       return known;
     }
   }
   ZTrace trace = trace_z_cache(record_, shape);
-  FrameWork work;
-  work.add(whole_stream(record_, trace), record_.surfaces);
-  work.flush = trace.flush;
-  DrawWork sum = work.sum();
-  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = std::move(work), .sum = sum});
+  const FrameWork work = frame_work(whole_stream(record_, trace), record_.surfaces, trace.flush);
+  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = work});
   return traced_.back();
 }
 
@@ -92,66 +133,38 @@ RetimedFrame Retimer::retime(const Config& config) {
   return retime_one(record_, traced(z_cache_shape(config)).trace, config);
 }
 
-AnalyticFrame Retimer::analytic(const Config& config) {
-  check_retimable(record_, config);
-  return analytic_frame(traced(z_cache_shape(config)).work, config);
-}
-
-void Retimer::retime_group(const Traced& known, std::span<const Config> configs,
-                           std::span<const std::size_t> group, std::span<RetimedFrame> results) const {
-  struct Place {
-    bool slow;
-    std::array<int, kFifos> capacity;
-    std::size_t i;
-  };
-  std::vector<Place> places;
-  places.reserve(group.size());
-  for (const std::size_t i : group) {
-    const bool slow = detail::longest_job(configs[i], most_steps_) > detail::kNarrowRoom;
-    places.push_back({.slow = slow, .capacity = capacities(configs[i]), .i = i});
-  }
-  // a pass is as wide as its slowest machine needs, and costs less where capacities are the same
-  std::ranges::sort(places, {},
-                    [](const Place& place) { return std::tie(place.slow, place.capacity, place.i); });
-  std::vector<Config> machines;
-  machines.reserve(places.size());
-  for (const Place& place : places) {
-    machines.push_back(configs[place.i]);
-  }
-  std::vector<RetimedFrame> retimed(places.size());
-  detail::retime_lanes(record_, known.trace, machines, most_steps_, retimed.data());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    results[places[k].i] = std::move(retimed[k]);
-  }
-}
-
 std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
-  for (const Config& config : configs) {
-    check_retimable(record_, config);
-  }
   std::vector<RetimedFrame> results(configs.size());
-  std::vector<bool> done(configs.size(), false);
-  for (std::size_t first = 0; first < configs.size(); ++first) {
-    if (done[first]) {
-      continue;
-    }
-    const Traced& known = traced(z_cache_shape(configs[first]));
-    std::vector<std::size_t> group;  // positions of what shares its z cache
-    for (std::size_t i = first; i < configs.size(); ++i) {
-      if (done[i] || z_cache_shape(configs[i]) != known.shape) {
-        continue;
-      }
-      done[i] = true;
-      if (detail::longest_time(known.work, known.sum, configs[i]) >
-          std::numeric_limits<std::uint32_t>::max()) {
-        results[i] = retime_one(record_, known.trace, configs[i]);  // needs 64 bits
-      } else {
-        group.push_back(i);
-      }
-    }
-    retime_group(known, configs, group, results);
+  for (const std::vector<std::size_t>& group : groups(record_, configs)) {
+    const Traced& known = traced(z_cache_shape(configs[group.front()]));
+    retime_group(record_, known.trace, known.work, configs, group, results);
   }
   return results;
+}
+
+std::vector<std::uint64_t> Retimer::estimate(std::span<const Config> configs) {
+  if (!sample_) {
+    sample_.emplace(record_);
+  }
+  std::vector<std::uint64_t> cycles(configs.size());
+  if (!sample_->pays()) {
+    const std::vector<RetimedFrame> exact = retime(configs);
+    std::ranges::transform(exact, cycles.begin(), &RetimedFrame::cycles);
+    return cycles;
+  }
+  std::vector<RetimedFrame> retimed(configs.size());
+  for (const std::vector<std::size_t>& group : groups(record_, configs)) {
+    Traced& known = traced(z_cache_shape(configs[group.front()]));
+    if (!known.sample) {
+      known.sample = sample_->trace(known.trace);
+    }
+    const SampleTrace& sample = *known.sample;
+    retime_group(sample_->packets(), sample.trace, sample.work, configs, group, retimed);
+    for (const std::size_t i : group) {
+      cycles[i] = sample_->cycles(configs[i], retimed[i], sample);
+    }
+  }
+  return cycles;
 }
 
 namespace detail {
@@ -167,27 +180,6 @@ std::uint64_t longest_job(const Config& config, std::uint32_t most_steps) {
   return 2 * std::uint64_t{most_steps} * m.step_interval +
          static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 + m.quad_beats[quads] +
          m.test_beats[quads] + parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + 8);
-}
-
-std::uint64_t longest_time(const FrameWork& work, const DrawWork& sum, const Config& config) {
-  const Machine<std::uint64_t> m = machine(config);
-  std::uint64_t time = static_cast<std::uint64_t>(config.z_cache.lines) + 64;
-  for (const std::uint32_t tiles : work.fast_clears) {
-    time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));
-  }
-  // 16 and 4: the cycles in which credits travel, and more than that
-  const auto through = static_cast<std::uint64_t>(sum_of_latencies(config));
-  const std::uint64_t each_job = through + 16;
-  for (std::size_t quads = 0; quads < sum.tiles.size(); ++quads) {
-    time += sum.tiles[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);
-  }
-  const std::uint64_t each_triangle = through + m.setup_interval + 4;
-  time += sum.triangles * each_triangle + sum.steps * m.step_interval;
-  for (std::size_t i = 0; i < sum.fetched.size(); ++i) {
-    time += sum.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +
-            sum.written_back[i] * (m.write_cycles[i] + 4);
-  }
-  return time + work.flush.size() * (m.write_cycles.back() + 4);
 }
 
 }  // namespace detail

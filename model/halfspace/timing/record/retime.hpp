@@ -3,22 +3,18 @@
 
 #include <cstdint>
 #include <list>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
-#include "halfspace/timing/analytic/analytic.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
+#include "halfspace/timing/record/frame_sample.hpp"
+#include "halfspace/timing/record/frame_work.hpp"
+#include "halfspace/timing/record/retimed_frame.hpp"
 #include "halfspace/timing/record/z_trace.hpp"
 
 namespace halfspace {
-
-struct RetimedFrame {
-  std::uint64_t cycles = 0;
-  std::vector<std::uint64_t> draw_end;  ///< by draw, as DrawCycles::end
-
-  friend bool operator==(const RetimedFrame&, const RetimedFrame&) = default;
-};
 
 /// Throws InputError where `config` differs from the record's in a key that changes packets: then the frame
 /// has to be recorded again.
@@ -38,24 +34,25 @@ class Retimer {
   /// The same for many machines: those with the same z cache share passes, a SIMD lane each.
   std::vector<RetimedFrame> retime(std::span<const Config> configs);
 
-  /// The analytic fidelity on `config`. Throws as check_retimable.
-  AnalyticFrame analytic(const Config& config);
+  /// Cycles of the frame, estimated from a sample of it (see FrameSample); exact where the record is so short
+  /// that a sample does not pay. Throws as check_retimable.
+  std::uint64_t estimate(const Config& config) { return estimate({&config, 1}).front(); }
+
+  /// The same for many machines, as retime().
+  std::vector<std::uint64_t> estimate(std::span<const Config> configs);
 
  private:
   struct Traced {
     ZCacheShape shape;
     ZTrace trace;
     FrameWork work;
-    DrawWork sum;  ///< of all draws and drawn clears
+    std::optional<SampleTrace> sample{};
   };
-  const Traced& traced(const ZCacheShape& shape);
-  /// Those of `configs` whose positions are in `group`: all have the z cache of `known`.
-  void retime_group(const Traced& known, std::span<const Config> configs, std::span<const std::size_t> group,
-                    std::span<RetimedFrame> results) const;
+  Traced& traced(const ZCacheShape& shape);
 
   FrameRecord record_;
-  std::uint32_t most_steps_ = 0;  ///< see detail::retime_lanes
-  std::list<Traced> traced_;      ///< a list: references stay valid
+  std::list<Traced> traced_;           ///< a list: references stay valid
+  std::optional<FrameSample> sample_;  ///< once something is estimated
 };
 
 namespace detail {
@@ -71,10 +68,6 @@ inline constexpr std::uint64_t kNarrowRoom = 0x7FFF;
 
 /// A bound on the cycles by which the latest time behind setup grows from one job to the next.
 std::uint64_t longest_job(const Config& config, std::uint32_t most_steps);
-
-/// A bound on the cycles of a frame: no packet overlaps with another.
-/// `sum` is that of all draws and drawn clears of `work`.
-std::uint64_t longest_time(const FrameWork& work, const DrawWork& sum, const Config& config);
 
 }  // namespace detail
 }  // namespace halfspace

@@ -1,0 +1,63 @@
+#include "halfspace/timing/record/frame_work.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "halfspace/timing/contract.hpp"
+#include "halfspace/timing/recurrence/machine.hpp"
+
+namespace halfspace {
+
+FrameWork frame_work(const StreamView& stream, std::span<const StreamSurface> surfaces,
+                     std::span<const ZFlush> dirty) {
+  FrameWork work;
+  for (const StreamSegment& segment : stream.segments) {
+    if (segment.kind == StreamSegment::Kind::kFastClear) {
+      work.fast_clears.push_back(surfaces[segment.surface].tiles);
+    }
+    work.triangles += segment.dropped_after;
+  }
+  for (const StreamTriangle& triangle : stream.triangles) {
+    work.triangles += triangle.dropped_before + 1;
+    work.steps += triangle.steps_after;
+    work.most_steps = std::max(work.most_steps, triangle.steps_after);
+  }
+  for (const StreamJob& job : stream.jobs) {
+    work.steps += job.steps();
+    work.most_steps = std::max(work.most_steps, job.steps());
+    ++work.jobs[static_cast<std::size_t>(job.quads())];
+  }
+  for (const ZMiss& miss : stream.misses) {
+    if (miss.fetch) {
+      ++work.fetched[static_cast<std::size_t>(std::countr_zero(miss.bytes))];
+    }
+    if (miss.write_back) {
+      ++work.written_back[static_cast<std::size_t>(std::countr_zero(miss.victim_bytes))];
+    }
+  }
+  work.flushed = dirty.size();
+  return work;
+}
+
+std::uint64_t longest_time(const FrameWork& work, const Config& config) {
+  const Machine<std::uint64_t> m = machine(config);
+  std::uint64_t time = static_cast<std::uint64_t>(config.z_cache.lines) + 64;
+  for (const std::uint32_t tiles : work.fast_clears) {
+    time += static_cast<std::uint64_t>(fast_clear_cycles(tiles, config));
+  }
+  // 16 and 4: the cycles in which credits travel, and more than that
+  const auto through = static_cast<std::uint64_t>(sum_of_latencies(config));
+  const std::uint64_t each_job = through + 16;
+  for (std::size_t quads = 0; quads < work.jobs.size(); ++quads) {
+    time += work.jobs[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);
+  }
+  const std::uint64_t each_triangle = through + m.setup_interval + 4;
+  time += work.triangles * each_triangle + work.steps * m.step_interval;
+  for (std::size_t i = 0; i < work.fetched.size(); ++i) {
+    time += work.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +
+            work.written_back[i] * (m.write_cycles[i] + 4);
+  }
+  return time + work.flushed * (m.write_cycles.back() + 4);
+}
+
+}  // namespace halfspace
