@@ -8,16 +8,16 @@ cycles are exactly the RTL's have a lane for each fidelity below, and so have th
 """
 
 import argparse
-import json
 import pathlib
 import statistics
-import sys
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter  # noqa: E402
+
+from bench_file import check_endings, read_json, save  # noqa: E402
 
 SCHEMA = ("halfspace-error", 2)
 # Fidelity: marker, colour (of Okabe and Ito, which the colour-blind can tell apart).
@@ -30,19 +30,6 @@ STYLE = {
     "rtl": ("P", "#000000"),
 }
 LABEL_SIZE = 7.5
-
-
-def read(path):
-    try:
-        data = json.loads(path.read_text())
-    except OSError as error:
-        sys.exit(f"{path}: {error.strerror}")
-    except ValueError as error:
-        sys.exit(f"{path}: is not JSON: {error}")
-    schema = (data.get("schema"), data.get("schema_version")) if isinstance(data, dict) else None
-    if schema != SCHEMA:
-        sys.exit(f"{path}: schema is {schema}; legal: {SCHEMA}")
-    return data
 
 
 def points(data):
@@ -198,14 +185,8 @@ def main():
     parser.add_argument("json", type=pathlib.Path, help="error.json")
     parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
     options = parser.parse_args()
-    for image in options.image:
-        if image.suffix not in (".png", ".svg"):
-            sys.exit(f"{image}: extension is '{image.suffix}'; legal: .png, .svg")
-    matplotlib.rcParams["svg.hashsalt"] = "halfspace"
-    figure = draw(read(options.json))
-    for image in options.image:
-        image.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(image, metadata={"Date": None} if image.suffix == ".svg" else {"Software": None})
+    check_endings(options.image)
+    save(draw(read_json(options.json, SCHEMA)), options.image)
 
 
 if __name__ == "__main__":

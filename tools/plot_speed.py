@@ -11,7 +11,6 @@ each workload, how many times as fast as the plain scalar loop the model is.
 import argparse
 import pathlib
 import statistics
-import sys
 
 import matplotlib
 
@@ -19,6 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
+from bench_file import check_endings, save  # noqa: E402
 from speed_file import read_history, read_speed  # noqa: E402
 
 # Marker and colour (of Okabe and Ito, which the colour-blind can tell apart), ours first.
@@ -97,15 +97,10 @@ def main():
     parser.add_argument("data", type=pathlib.Path, help="JSON of `halfspace bench speed`, or the history, .csv")
     parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
     options = parser.parse_args()
-    for image in options.image:
-        if image.suffix not in (".png", ".svg"):
-            sys.exit(f"{image}: extension is '{image.suffix}'; legal: .png, .svg")
-    matplotlib.rcParams["svg.hashsalt"] = "halfspace"
+    check_endings(options.image)
     is_history = options.data.suffix == ".csv"
     figure = draw_history(read_history(options.data)) if is_history else draw_speed(read_speed(options.data))
-    for image in options.image:
-        image.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(image, metadata={"Date": None} if image.suffix == ".svg" else {"Software": None})
+    save(figure, options.image)
 
 
 if __name__ == "__main__":

@@ -64,6 +64,7 @@ class FastCore::Runner {
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       resolve(tile_size_, walker_.sub_pixel_bits, result_.surfaces[i], tiles_[i]);
     }
+    tiles_.clear();
     shape_.clear();
     return std::move(result_);
   }
@@ -83,12 +84,13 @@ class FastCore::Runner {
         reset(result_.surfaces[i], tiles_[i]);
       }
     } else {
-      shape_ = std::move(shape);
+      shape_.clear();  // until all of it is there
       tiles_.clear();
       result_.surfaces = make_surfaces(frame, tile_size_, watch_);
       for (const Surface& surface : result_.surfaces) {
         tiles_.emplace_back(surface.codes, block_tiles_, largest_code(surface.format));
       }
+      shape_ = std::move(shape);
     }
     make_cache();
   }

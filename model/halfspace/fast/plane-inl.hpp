@@ -114,11 +114,6 @@ HWY_INLINE Vector first_samples(std::uint32_t step_x, std::uint32_t step_y) {
   return hn::Add(hn::Mul(x, set(step_x)), hn::Mul(y, set(step_y)));
 }
 
-/// Codes of words, within the range of the triangle's.
-HWY_INLINE Vector short_codes(Vector word, int fraction, Vector low, Vector high) {
-  return hn::Min(hn::Max(hn::ShiftRightSame(word, fraction), low), high);
-}
-
 using WideTag = hn::Repartition<std::int64_t, Tag>;
 using WideVector = hn::Vec<WideTag>;
 inline constexpr int kWideWidth = static_cast<int>(hn::MaxLanes(WideTag()));

@@ -8,7 +8,8 @@
 #include "halfspace/fast/set_up-inl.hpp"
 
 #if HWY_ONCE
-#include <stdexcept>
+#include <algorithm>
+#include <cstdlib>
 
 namespace halfspace::fast {
 

@@ -102,10 +102,11 @@ inline double real(std::uint64_t gradient) {
 }
 inline double real(Modular gradient) { return static_cast<double>(static_cast<Int128>(gradient)); }
 
-/// What bounds of depth are made of. `unit`: of a code, in words; of float32, of depth.
+/// What bounds of depth are made of: in codes, of float32 in depth. `unit`: of these, in words. `highest`:
+/// that the triangle has. `least_margin`: what the words' own rounding takes at most.
 template <int TileSize, class Words>
-HWY_INLINE void load_bounds(const Words& words, double unit, double least_margin, const RasterTask& task,
-                            Triangle& out) {
+HWY_INLINE void load_bounds(const Words& words, double unit, double highest, double least_margin,
+                            const RasterTask& task, Triangle& out) {
   const double pixel = 1 << task.walker.sub_pixel_bits;
   const double scale = 1 / (double{1 << kGradientFraction} * unit);
   const double dx = real(words.dx) * scale;
@@ -115,11 +116,12 @@ HWY_INLINE void load_bounds(const Words& words, double unit, double least_margin
   out.gradient_x = dx;
   out.gradient_y = dy;
   out.depth_origin = z + (0.5 - plane.x / pixel) * dx + (0.5 - plane.y / pixel) * dy;
-  // Floats, and the words' own rounding, are off by less than this anywhere in the blocks that the bounds
-  // touch.
+  // A bound is three sums of floats, each off by 2^-24 of what is summed. That is at most the highest depth
+  // and what it changes by around the bounds. Vertex 0 says nothing of it: it may be far away, and much less
+  // deep.
   const double reach = std::fabs(dx) * (out.bounds.x_last - out.bounds.x_first + 2 * task.walker.block_size) +
                        std::fabs(dy) * (out.bounds.y_last - out.bounds.y_first + 2 * task.walker.block_size);
-  const auto margin = static_cast<float>(least_margin + (std::fabs(z) + 2 * reach) * 0x1p-20);
+  const auto margin = static_cast<float>(least_margin + (highest + 2 * reach) * 0x1p-20);
   const auto gx = static_cast<float>(dx);
   const auto gy = static_cast<float>(dy);
   const float side = TileSize - 1;
@@ -176,16 +178,16 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
   if (out.kind == DepthKind::kShort) {
     out.short_words = ShortWords(plane, plane.dx, plane.dy, state.sub_pixel_bits);
     constexpr double kMargin = 2;
-    load_bounds<TileSize>(out.short_words,
-                          static_cast<double>(std::int64_t{1} << vertex_depth_fraction(state.format)),
-                          kMargin, task, out);
+    const double code = static_cast<double>(std::int64_t{1} << vertex_depth_fraction(state.format));
+    load_bounds<TileSize>(out.short_words, code, plane.high, kMargin, task, out);
     hn::Store(first_samples<TileSize>(out.short_words.step_x, out.short_words.step_y), Tag(),
               out.depth_steps);
   } else {
     out.long_words = long_words(plane, state.sub_pixel_bits);
-    constexpr double kMargin = 0x1p-60;
-    load_bounds<TileSize>(out.long_words, std::ldexp(1.0, kLongWordFraction - plane.exponent), kMargin, task,
-                          out);
+    const double margin = std::ldexp(1.0, plane.exponent - 55);  // 256 words
+    const double one = std::ldexp(1.0, kLongWordFraction - plane.exponent);
+    const double highest = std::bit_cast<float>(plane.high);
+    load_bounds<TileSize>(out.long_words, one, highest, margin, task, out);
     out.rebias = float_rebias(plane.exponent);
     long_steps<TileSize>(out.long_words, out.long_steps);
   }

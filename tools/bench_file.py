@@ -1,0 +1,36 @@
+"""Reads the JSON that `halfspace bench` wrote, and saves the pictures that are drawn of it."""
+
+import json
+import sys
+
+ENDINGS = (".png", ".svg")
+
+
+def read_json(path, expected):
+    """`expected`: name and version of the schema."""
+    try:
+        data = json.loads(path.read_text())
+    except OSError as error:
+        sys.exit(f"{path}: {error.strerror}")
+    except ValueError as error:
+        sys.exit(f"{path}: is not JSON: {error}")
+    schema = (data.get("schema"), data.get("schema_version")) if isinstance(data, dict) else None
+    if schema != expected:
+        sys.exit(f"{path}: schema is {schema}; legal: {expected}")
+    return data
+
+
+def check_endings(images):
+    for image in images:
+        if image.suffix not in ENDINGS:
+            sys.exit(f"{image}: extension is '{image.suffix}'; legal: {', '.join(ENDINGS)}")
+
+
+def save(figure, images):
+    """The same bytes every time."""
+    import matplotlib  # who only reads needs none
+
+    matplotlib.rcParams["svg.hashsalt"] = "halfspace"
+    for image in images:
+        image.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(image, metadata={"Date": None} if image.suffix == ".svg" else {"Software": None})
