@@ -12,11 +12,9 @@
 namespace halfspace::testing {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t kInGate = 100;
-#else
-constexpr std::uint64_t kInGate = 5000;
-#endif
+/// A frame counts as so many samples.
+constexpr std::uint64_t kFrameSamples = 2000;
+std::uint64_t frames() { return samples(10'000'000) / kFrameSamples; }
 
 /// Triangles that are hard on vectors: within a few samples, on the borders of tiles and blocks, slivers, and
 /// as large as the guard band.
@@ -109,6 +107,19 @@ Frame touching_planes(Random& random) {
   return builder.frame;
 }
 
+/// Triangles of which a scissor leaves a window of a few samples: a tile, a part of one or of several. Some
+/// cover it whole.
+Frame scissored(Random& random) {
+  FrameBuilder builder(64, pick(random, {DepthFormat::kUnorm24, DepthFormat::kFloat32}));
+  for (int n = 0; n < 8; ++n) {
+    Command& draw = builder.draw(hard_triangles(random, 64, 40));
+    const std::int32_t side = pick(random, {1, 2, 3, 4, 4, 4, 8, 9});
+    draw.scissor = {static_cast<std::int32_t>(random.between(0, 15)) * 4,
+                    static_cast<std::int32_t>(random.between(0, 15)) * 4, side, side};
+  }
+  return builder.frame;
+}
+
 /// Frames and machines at random, `runs` of them, on every instruction set in turn.
 void compare_cores(std::uint64_t runs) {
   Random random(seed());
@@ -140,16 +151,31 @@ void compare_cores(std::uint64_t runs) {
 }  // namespace
 
 TEST_CASE("fast core: what the units make of random frames on random machines", "[property]") {
-  compare_cores(samples(kInGate));
+  compare_cores(frames());
 }
 
 TEST_CASE("fast core: planes that touch in a sample, their first vertices far away", "[property]") {
   Random random(seed() + 3);
   const Config config;
   const Watch watch{.keep_visible = true};
-  for (std::uint64_t run = 0; run < samples(kInGate); ++run) {
+  for (std::uint64_t run = 0; run < frames(); ++run) {
     CAPTURE(seed(), run);
     const Frame frame = touching_planes(random);
+    fast::FastCore core(config, watch);
+    core.run(frame);
+    REQUIRE(result_difference(core.take(), run_in_order(frame, config, watch, nullptr)) == "");
+  }
+}
+
+TEST_CASE("fast core: windows that a scissor cuts out, in every size of tile and block", "[property]") {
+  Random random(seed() + 4);
+  for (std::uint64_t run = 0; run < frames() / 10; ++run) {
+    CAPTURE(seed(), run);
+    Config config;
+    config.tile_walker.tile_size = pick(random, {4, 8});
+    config.tile_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
+    const Watch watch{.keep_visible = true};
+    const Frame frame = scissored(random);
     fast::FastCore core(config, watch);
     core.run(frame);
     REQUIRE(result_difference(core.take(), run_in_order(frame, config, watch, nullptr)) == "");
@@ -161,7 +187,7 @@ TEST_CASE("fast core: memory of the frame before leaves no trace", "[property]")
   const Config config;
   const Watch watch{.keep_visible = true};
   fast::FastCore core(config, watch);
-  for (std::uint64_t run = 0; run < samples(kInGate) / 20; ++run) {
+  for (std::uint64_t run = 0; run < frames() / 20; ++run) {
     CAPTURE(seed(), run);
     const Frame frame = hard_frame(random);
     core.run(frame);

@@ -49,7 +49,14 @@ class Windows {
         tallies_(tallies),
         block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))) {}
 
-  /// Which of the kWidth triangles from `at` on are small; with edges so short that 32 bits do in blocks
+  /// Bounds as large as a tile, which may be covered whole: windows know partial tiles only.
+  static HWY_INLINE hn::Mask<Tag> may_fill_tile(const SetUpTriangles& in, std::size_t at) {
+    const Vector width = hn::Sub(field(in.x_last, at), field(in.x_first, at));
+    const Vector height = hn::Sub(field(in.y_last, at), field(in.y_first, at));
+    return hn::Gt(hn::Min(width, height), set(TileSize - 2));
+  }
+
+  /// Which of the kWidth triangles from `at` on are small: with edges so short that 32 bits do in blocks
   /// around them.
   static std::uint32_t among(const SetUpTriangles& in, std::size_t at) {
     constexpr std::int32_t kMostStep = 1 << 14;
@@ -62,8 +69,8 @@ class Windows {
     };
     const Vector side = hn::Max(extent(in.x_first, in.x_last), extent(in.y_first, in.y_last));
     const auto fits = hn::And(hn::Lt(steps, set(kMostStep)), hn::Lt(side, set(kSide)));
-    return bits_of(
-        hn::And(fits, hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kUnits)))));
+    const auto has_vectors = hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kUnits)));
+    return bits_of(hn::And(hn::And(fits, has_vectors), hn::Not(may_fill_tile(in, at))));
   }
 
   /// Looks at `count` small triangles from `first` on, at most kWidth.
