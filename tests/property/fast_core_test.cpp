@@ -8,6 +8,7 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/fast/fast_core.hpp"
 #include "halfspace/machine/in_order.hpp"
+#include "halfspace/timing/recurrence/run_recurrence.hpp"
 
 namespace halfspace::testing {
 namespace {
@@ -120,8 +121,25 @@ Frame scissored(Random& random) {
   return builder.frame;
 }
 
+/// Where what the fast core makes differs from what the units make; `stalls` null: without time.
+std::string core_difference(const Frame& frame, const Config& config, const Watch& watch,
+                            const StallPlan* stalls) {
+  if (stalls == nullptr) {
+    fast::FastCore core(config, watch);
+    core.run(frame);
+    return result_difference(core.take(), run_in_order(frame, config, watch, nullptr));
+  }
+  EngineOptions options{.watch = watch, .stalls = *stalls, .packet_times = true};
+  options.watch.core = Core::kFast;
+  const TimedResult ours = run_recurrence(frame, config, options);
+  options.watch.core = Core::kReadable;
+  const TimedResult other = run_recurrence(frame, config, options);
+  return result_difference(ours.frame, other.frame) + difference(ours.times, other.times) +
+         difference(ours.cycles, other.cycles);
+}
+
 /// Frames and machines at random, `runs` of them, on every instruction set in turn.
-void compare_cores(std::uint64_t runs) {
+void compare_cores(std::uint64_t runs, bool with_time) {
   Random random(seed());
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   std::uint64_t covered = 0;
@@ -138,10 +156,8 @@ void compare_cores(std::uint64_t runs) {
     INFO(difference_from_default(config));
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    fast::FastCore core(config, watch);
-    core.run(frame);
-    FrameResult result = core.take();
-    REQUIRE(result_difference(result, run_in_order(frame, config, watch, nullptr)) == "");
+    const StallPlan stalls = random.between(0, 1) == 0 ? StallPlan{} : random_stalls(random);
+    REQUIRE(core_difference(frame, config, watch, with_time ? &stalls : nullptr) == "");
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -151,7 +167,11 @@ void compare_cores(std::uint64_t runs) {
 }  // namespace
 
 TEST_CASE("fast core: what the units make of random frames on random machines", "[property]") {
-  compare_cores(frames());
+  compare_cores(frames(), false);
+}
+
+TEST_CASE("fast core: time as the units have it, of random frames on random machines", "[property]") {
+  compare_cores(frames() / 5, true);
 }
 
 TEST_CASE("fast core: planes that touch in a sample, their first vertices far away", "[property]") {
@@ -161,9 +181,7 @@ TEST_CASE("fast core: planes that touch in a sample, their first vertices far aw
   for (std::uint64_t run = 0; run < frames(); ++run) {
     CAPTURE(seed(), run);
     const Frame frame = touching_planes(random);
-    fast::FastCore core(config, watch);
-    core.run(frame);
-    REQUIRE(result_difference(core.take(), run_in_order(frame, config, watch, nullptr)) == "");
+    REQUIRE(core_difference(frame, config, watch, nullptr) == "");
   }
 }
 
@@ -176,9 +194,7 @@ TEST_CASE("fast core: windows that a scissor cuts out, in every size of tile and
     config.tile_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
     const Watch watch{.keep_visible = true};
     const Frame frame = scissored(random);
-    fast::FastCore core(config, watch);
-    core.run(frame);
-    REQUIRE(result_difference(core.take(), run_in_order(frame, config, watch, nullptr)) == "");
+    REQUIRE(core_difference(frame, config, watch, nullptr) == "");
   }
 }
 

@@ -23,7 +23,7 @@ FrameResult run_core(const Frame& frame, const Config& config, const Watch& watc
   if (core_of(config, watch, reader) == Core::kReadable) {
     return run_in_order(frame, config, watch, reader);
   }
-  fast::FastCore core(config, watch);
+  fast::FastCore core(config, watch, reader);
   core.run(frame);
   return core.take();
 }

@@ -27,28 +27,48 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
   of_part = entries << (x_bits + y_bits);
   of_way = of_part * static_cast<std::size_t>(parts);
   tag.assign(of_way * static_cast<std::size_t>(ways), kFree);
-  slot.assign(tag.size(), 0);
+  slot.resize(tag.size());
+  number_slots(shape, block_shift);
   cleared.assign((surfaces.back().first * groups) * static_cast<std::size_t>(parts), 0);
+}
+
+void BlockCache::number_slots(const ZCacheShape& shape, int block_shift) {
+  const std::size_t side = std::size_t{1} << block_shift;
+  const int x_set = x_bits + block_shift;
+  for (std::size_t i = 0; i < tag.size(); ++i) {
+    const std::size_t way = i / of_way;
+    const std::size_t part = i % of_way / of_part;
+    const std::size_t block = i % of_part / entries;
+    const std::size_t tile = i % entries % (side * side);  // no tile is behind a small block's last
+    const std::size_t x = (block & x_mask) << block_shift | tile % side;
+    const std::size_t y = block >> x_bits << block_shift | tile / side;
+    const std::size_t set = x | y << x_set;
+    slot[i] = static_cast<std::uint32_t>(
+        (part * static_cast<std::size_t>(shape.sets()) + set) * static_cast<std::size_t>(shape.ways) + way);
+  }
 }
 
 void BlockCache::clear(const BlockSurface& surface) {
   const auto first = static_cast<std::int32_t>(surface.first);
   const auto end = static_cast<std::int32_t>(surface.first + surface.blocks);
+  std::vector<std::uint32_t> free;
   for (std::size_t set = 0; set < of_way; ++set) {
     // What stays moves to the front; what is free follows, the one used longest ago last.
-    std::size_t kept = 0;
-    for (std::size_t way = 0; way < static_cast<std::size_t>(ways); ++way) {
-      const std::size_t from = way * of_way + set;
-      if (tag[from] < first || tag[from] >= end) {
-        if (tag[from] != kFree) {
-          std::swap(tag[kept * of_way + set], tag[from]);
-          std::swap(slot[kept * of_way + set], slot[from]);
-          ++kept;
-        }
+    free.clear();
+    std::size_t kept = set;
+    for (std::size_t from = set; from < tag.size(); from += of_way) {
+      if (tag[from] == kFree || (tag[from] >= first && tag[from] < end)) {
+        free.push_back(slot[from] & ~kDirty);
         continue;
       }
-      tag[from] = kFree;
-      slot[from] = 0;
+      tag[kept] = tag[from];
+      slot[kept] = slot[from];
+      kept += of_way;
+    }
+    for (const std::uint32_t each : free) {
+      tag[kept] = kFree;
+      slot[kept] = each;
+      kept += of_way;
     }
   }
   const std::size_t words = groups * static_cast<std::size_t>(parts);
@@ -56,13 +76,15 @@ void BlockCache::clear(const BlockSurface& surface) {
               std::uint16_t{0xFFFF});
 }
 
-void BlockCache::flush(std::uint64_t& lines, std::uint64_t& bytes) const {
+std::vector<ZFlush> BlockCache::flush() const {
+  std::vector<ZFlush> dirty;
   for (std::size_t i = 0; i < tag.size(); ++i) {
     if ((slot[i] & kDirty) != 0) {
-      ++lines;
-      bytes += line_bytes(static_cast<std::uint32_t>(tag[i]));
+      dirty.push_back({.slot = slot[i] & ~kDirty, .bytes = line_bytes(static_cast<std::uint32_t>(tag[i]))});
     }
   }
+  std::ranges::sort(dirty, {}, &ZFlush::slot);
+  return dirty;
 }
 
 }  // namespace halfspace::fast

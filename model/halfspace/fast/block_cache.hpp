@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "halfspace/machine/stream_writer.hpp"
 #include "halfspace/units/counters.hpp"
-#include "halfspace/units/z_line.hpp"
+#include "halfspace/units/z_cache.hpp"
 
 namespace halfspace::fast {
 
@@ -66,13 +67,39 @@ struct BlockCache {
             .word = ((surface.first + block) * groups + group) * static_cast<std::size_t>(parts)};
   }
 
+  /// Lines of memory that all surfaces take.
+  [[nodiscard]] std::uint32_t memory_lines() const {
+    return static_cast<std::uint32_t>(cleared.size()) * kLanes;
+  }
+  /// A line that is not there, before it has been counted. `word`: in `cleared`; `victim`: tag of the line
+  /// that leaves.
+  [[nodiscard]] ZMiss miss(const CachePlace& at, std::size_t word, int lane, std::int32_t victim,
+                           bool is_dirty) const {
+    const auto line = [lane](std::size_t of) {
+      return static_cast<std::uint32_t>(of * kLanes + static_cast<std::size_t>(lane));
+    };
+    ZMiss miss{.line = line(word),
+               .bytes = static_cast<std::uint16_t>(at.line_bytes),
+               .fetch = (cleared[word] >> lane & 1) == 0,
+               .write_back = is_dirty};
+    if (victim != kFree) {
+      miss.victim = line(word_of(at, word, static_cast<std::uint32_t>(victim)));
+      miss.victim_bytes = static_cast<std::uint16_t>(line_bytes(static_cast<std::uint32_t>(victim)));
+    }
+    return miss;
+  }
+  /// Of the same group and part of another block.
+  [[nodiscard]] std::size_t word_of(const CachePlace& at, std::size_t word, std::uint32_t block) const {
+    return word + (std::size_t{block} - std::size_t{at.block}) * groups * static_cast<std::size_t>(parts);
+  }
+
   /// All lines of a surface are cleared, and none of them is in the cache.
   void clear(const BlockSurface& surface);
 
-  /// What is dirty leaves.
-  void flush(std::uint64_t& lines, std::uint64_t& bytes) const;
+  /// What is dirty, in order of slots.
+  [[nodiscard]] std::vector<ZFlush> flush() const;
 
-  static constexpr std::uint32_t kDirty = 1u << 31;  ///< of `slot`
+  static constexpr std::uint32_t kDirty = 1u << 31;  ///< of `slot`, beside its number
   static constexpr std::int32_t kFree = -1;          ///< of `tag`
 
   int ways = 0;
@@ -86,13 +113,17 @@ struct BlockCache {
   std::size_t of_way = 0;   ///< entries of all parts
   std::vector<BlockSurface> surfaces;
   std::vector<std::int32_t> tag;       ///< by way, the most recently used first; then by part and set
-  std::vector<std::uint32_t> slot;     ///< alike: dirty or not
+  std::vector<std::uint32_t> slot;     ///< alike: where in the cache the line lies, and whether it is dirty
   std::vector<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
+
+ private:
+  /// As the units (units/z_lookup.hpp).
+  void number_slots(const ZCacheShape& shape, int block_shift);
 };
 
-/// The line of one part of one tile.
+/// The line of one part of one tile. A miss goes to `stream`, if there is one.
 inline void access_line(BlockCache& cache, const CachePlace& at, int part, int lane, bool written,
-                        EarlyZCounters& counters) {
+                        EarlyZCounters& counters, StreamWriter* stream) {
   const std::size_t first =
       at.entry + static_cast<std::size_t>(part) * cache.of_part + static_cast<std::size_t>(lane);
   std::int32_t* const tags = cache.tag.data() + first;
@@ -116,8 +147,11 @@ inline void access_line(BlockCache& cache, const CachePlace& at, int part, int l
       return;
     }
   }
-  slots[0] = dirty;
+  slots[0] = (moved_slot & ~BlockCache::kDirty) | dirty;
   const std::size_t word = at.word + static_cast<std::size_t>(part);
+  if (stream != nullptr) {
+    stream->miss(cache.miss(at, word, lane, moved_tag, (moved_slot & BlockCache::kDirty) != 0));
+  }
   const bool cleared = (cache.cleared[word] >> lane & 1) != 0;
   ++counters.z_misses;
   counters.z_cleared += cleared ? 1 : 0;
@@ -126,9 +160,22 @@ inline void access_line(BlockCache& cache, const CachePlace& at, int part, int l
     const auto victim = static_cast<std::uint32_t>(moved_tag);
     ++counters.z_evicted;
     counters.bytes_written += cache.line_bytes(victim);
-    const std::size_t there = word + (std::size_t{victim} - std::size_t{at.block}) * cache.groups *
-                                         static_cast<std::size_t>(cache.parts);
-    cache.cleared[there] = static_cast<std::uint16_t>(cache.cleared[there] & ~(1u << lane));
+    std::uint16_t& cleared_there = cache.cleared[cache.word_of(at, word, victim)];
+    cleared_there = static_cast<std::uint16_t>(cleared_there & ~(1u << lane));
+  }
+}
+
+/// The lines of a tile, bits of parts: those that are touched, and of these those that are written to. An
+/// access of `stream`, if there is one.
+inline void access_parts(BlockCache& cache, const CachePlace& at, int lane, unsigned touched,
+                         unsigned written, EarlyZCounters& counters, StreamWriter* stream) {
+  for (int part = 0; part < cache.parts; ++part) {
+    if ((touched >> part & 1) != 0) {
+      access_line(cache, at, part, lane, (written >> part & 1) != 0, counters, stream);
+    }
+  }
+  if (stream != nullptr) {
+    stream->accessed();
   }
 }
 

@@ -19,20 +19,18 @@
 #include "halfspace/fast/tallies.hpp"
 #include "halfspace/fast/walk-inl.hpp"
 #include "halfspace/machine/passage/z_lookup.hpp"
-#include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/z_test.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// Quad generator, early_z and what follows it.
+/// early_z and what follows it.
 template <int TileSize>
 class EarlyZ {
  public:
   static constexpr int kSamples = TileSize * TileSize;
   static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kSamples);
-  static constexpr std::uint64_t kQuads = kSamples / 4;
 
   EarlyZ(const RasterTask& task, Tallies& tallies)
       : task_(task),
@@ -56,16 +54,12 @@ class EarlyZ {
   HWY_INLINE void visit(const Visit& visit, const std::uint64_t* masks) {
     const std::uint32_t touched = visit.whole | visit.partial;
     begin(visit);
-    count_whole(static_cast<std::uint64_t>(std::popcount(visit.whole)));
-    for (int i = 0; i < std::popcount(visit.partial); ++i) {
-      count_partial(masks[i]);
-    }
     Passed passed;
     if (visit.triangle->kind == DepthKind::kNone) {
       if (watches_) {
         show_whole(visit.whole, visit.whole);
       }
-      tallies_.survivors += static_cast<std::uint64_t>(std::popcount(visit.whole)) * kSamples;
+      tallies_.survivors += ones(visit.whole) * kSamples;
       passed.some =
           visit.whole | partial_tiles(visit.partial, masks, [](int, std::uint64_t mask) { return mask; });
     } else {
@@ -74,7 +68,7 @@ class EarlyZ {
     if (touches_depth_) {
       look_up(touched, state_.write ? passed.some : 0);
     }
-    counters_.early_z.tiles_killed += static_cast<std::uint64_t>(std::popcount(touched & ~passed.some));
+    counters_.early_z.tiles_killed += ones(touched & ~passed.some);
   }
 
  private:
@@ -101,25 +95,6 @@ class EarlyZ {
   [[nodiscard]] int tile_x(int lane) const { return first_x_ + (lane & (block_tiles_ - 1)); }
   [[nodiscard]] int tile_y(int lane) const { return first_y_ + (lane >> tile_shift_); }
 
-  void count_whole(std::uint64_t tiles) {
-    tallies_.bursts += tiles;
-    tallies_.fragments += tiles * kSamples;
-    tallies_.quads += tiles * kQuads;
-    tallies_.full_quads += tiles * kQuads;
-  }
-
-  HWY_INLINE void count_partial(std::uint64_t mask) {
-    constexpr std::uint64_t kCorners = quad_corners<TileSize>();
-    const std::uint64_t any_pairs = mask | mask >> 1;
-    const std::uint64_t all_pairs = mask & mask >> 1;
-    ++tallies_.bursts;
-    tallies_.fragments += static_cast<std::uint64_t>(std::popcount(mask));
-    tallies_.quads +=
-        static_cast<std::uint64_t>(std::popcount((any_pairs | any_pairs >> TileSize) & kCorners));
-    tallies_.full_quads +=
-        static_cast<std::uint64_t>(std::popcount((all_pairs & all_pairs >> TileSize) & kCorners));
-  }
-
   /// Calls test(lane, mask) for partial tiles, which returns what passed. Returns the tiles of which some
   /// did.
   template <class Test>
@@ -136,7 +111,7 @@ class EarlyZ {
 
   /// A tile has been tested.
   HWY_INLINE void tested(int lane, std::uint64_t mask, std::uint64_t passed) {
-    tallies_.survivors += static_cast<std::uint64_t>(std::popcount(passed));
+    tallies_.survivors += ones(passed);
     if (counts_parts_) {
       touched_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{mask}}, task_.z_parts);
       written_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{passed}}, task_.z_parts);
@@ -161,7 +136,7 @@ class EarlyZ {
     if (result.whole != 0 && state_.write) {
       become_plane(t, result.whole, range);
     }
-    tallies_.survivors += static_cast<std::uint64_t>(std::popcount(result.whole)) * kSamples;
+    tallies_.survivors += ones(result.whole) * kSamples;
     if (watches_ || counts_parts_) {
       show_whole(whole & (killed | result.whole), result.whole);
     }
@@ -313,9 +288,16 @@ class EarlyZ {
       look_up_tiles(touched, written);
       return;
     }
-    counters.z_bursts += static_cast<std::uint64_t>(std::popcount(touched));
+    counters.z_bursts += ones(touched);
     if (!counts_parts_) {
-      access_lines(*task_.cache, place_, 0, touched, written, counters);
+      access_lines(*task_.cache, place_, 0, touched, written, counters, task_.stream);
+      if (task_.stream != nullptr) {
+        task_.stream->accessed(static_cast<std::uint32_t>(ones(touched)));
+      }
+      return;
+    }
+    if (task_.stream != nullptr) {
+      tell_parts(touched, written);
       return;
     }
     for (int part = 0; part < task_.z_parts; ++part) {
@@ -327,8 +309,18 @@ class EarlyZ {
         changed |= (written_parts_[static_cast<std::size_t>(lane)] >> part & 1u) << lane;
       }
       if (here != 0) {
-        access_lines(*task_.cache, place_, part, here, changed & written, counters);
+        access_lines(*task_.cache, place_, part, here, changed & written, counters, nullptr);
       }
+    }
+  }
+
+  /// Part by part, in the order of the stream.
+  void tell_parts(std::uint32_t touched, std::uint32_t written) {
+    for (std::uint32_t left = touched; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const auto i = static_cast<std::size_t>(lane);
+      const unsigned changed = (written >> lane & 1) != 0 ? written_parts_[i] : 0;
+      access_parts(*task_.cache, place_, lane, touched_parts_[i], changed, counters_.early_z, task_.stream);
     }
   }
 
@@ -343,6 +335,9 @@ class EarlyZ {
           task_.tile_cache->access(task_.place, static_cast<std::uint32_t>(tile_x(lane)),
                                    static_cast<std::uint32_t>(tile_y(lane)), parts, changed);
       passage::count_z_cache(draw_, parts, misses);
+      if (task_.stream != nullptr) {
+        task_.stream->accessed(misses.parts());
+      }
     }
   }
 

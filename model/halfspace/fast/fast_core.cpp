@@ -27,11 +27,12 @@ namespace halfspace::fast {
 
 class FastCore::Runner {
  public:
-  Runner(const Config& config, const Watch& watch)
+  Runner(const Config& config, const Watch& watch, StreamReader* reader)
       : config_(config),
         tile_size_(config.tile_walker.tile_size),
         block_tiles_(config.tile_walker.block_size / config.tile_walker.tile_size),
         watch_(watch),
+        reader_(reader),
         walker_(walker_config(config)) {}
 
   void run(const Frame& frame) {
@@ -52,6 +53,9 @@ class FastCore::Runner {
           set_up(item->triangles);
           flush();
         }
+      }
+      if (draw != nullptr && stream_) {
+        stream_->end_segment(draw->counters.setup.triangles);
       }
     }
     flush_cache();
@@ -93,6 +97,11 @@ class FastCore::Runner {
       shape_ = std::move(shape);
     }
     make_cache();
+    if (reader_ != nullptr) {
+      stream_.emplace(*reader_, frame.name);
+      reader_->begin(stream_surfaces(result_.surfaces),
+                     by_blocks_ ? cache_.memory_lines() : memory_lines(places_, z_cache_shape(config_)));
+    }
   }
 
   void make_cache() {
@@ -139,18 +148,32 @@ class FastCore::Runner {
              .cached = has_depth && by_blocks_ ? cache_.surfaces[draw.surface] : BlockSurface{},
              .tile_cache = has_depth && !by_blocks_ ? &tile_cache_ : nullptr,
              .place = has_depth ? places_[draw.surface] : ZSurface{},
-             .z_parts = config_.z_cache.parts};
+             .z_parts = config_.z_cache.parts,
+             .stream = stream_ ? &*stream_ : nullptr};
+    if (stream_) {
+      using Kind = StreamSegment::Kind;
+      stream_->begin_segment(draw.is_clear() ? Kind::kDrawnClear : Kind::kDraw, draw.surface,
+                             touches_depth(draw.early_z));
+    }
   }
 
   void flush_cache() {
+    std::vector<ZFlush> dirty;
     if (by_blocks_) {
-      cache_.flush(result_.flushed_lines, result_.flushed_bytes);
-      return;
+      dirty = cache_.flush();
+    } else {
+      tile_cache_.flush([&](std::uint32_t slot, std::uint32_t /*line*/, std::uint32_t bytes) {
+        dirty.push_back({.slot = slot, .bytes = bytes});
+      });
     }
-    tile_cache_.flush([&](std::uint32_t /*slot*/, std::uint32_t /*line*/, std::uint32_t bytes) {
+    for (const ZFlush& line : dirty) {
       ++result_.flushed_lines;
-      result_.flushed_bytes += bytes;
-    });
+      result_.flushed_bytes += line.bytes;
+    }
+    if (stream_) {
+      stream_->give(false, nullptr);
+      reader_->end(dirty);
+    }
   }
 
   void clear(const SourceItem& item) {
@@ -160,6 +183,10 @@ class FastCore::Runner {
       cache_.clear(cache_.surfaces[item.surface]);
     } else {
       tile_cache_.clear(places_[item.surface]);
+    }
+    if (stream_) {
+      stream_->begin_segment(StreamSegment::Kind::kFastClear, item.surface, false);
+      stream_->end_segment(0);
     }
   }
 
@@ -268,9 +295,13 @@ class FastCore::Runner {
   void draw_by_units(const SetupTriangle& triangle) {
     passage::TileWalker walker(walker_);
     DrawContext& draw = *task_.draw;
-    walker.walk<TileSize>(triangle, draw, [&](const TileJob& job, TileWork work, std::uint32_t /*steps*/) {
+    if (stream_) {
+      stream_->drawn(static_cast<std::uint32_t>(draw.counters.setup.triangles - 1));
+    }
+    const auto draw_job = [&](const TileJob& job, TileWork work, std::uint32_t steps) {
       const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, draw);
       if (!any(coverage.mask)) {
+        tell_job(steps, 0);
         return;
       }
       const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
@@ -302,14 +333,31 @@ class FastCore::Runner {
         look_up(job.tile_x, job.tile_y, parts_of_mask<TileSize>(coverage.mask, parts),
                 draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0});
       }
-    });
+      tell_job(steps, burst.quads);
+    };
+    const std::uint32_t steps_after = walker.walk<TileSize>(triangle, draw, draw_job);
+    if (stream_) {
+      stream_->walked(steps_after);
+    }
+  }
+
+  void tell_job(std::uint32_t steps, int quads) {
+    if (stream_) {
+      stream_->job(steps, quads);
+      if (stream_->full()) {
+        stream_->give(true, nullptr);
+      }
+    }
   }
 
   /// Lines of a tile, a bit a part.
   void look_up(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written) {
     if (!by_blocks_) {
-      passage::count_z_cache(*task_.draw, touched,
-                             tile_cache_.access(task_.place, tile_x, tile_y, touched, written));
+      const ZMisses misses = tile_cache_.access(task_.place, tile_x, tile_y, touched, written);
+      passage::count_z_cache(*task_.draw, touched, misses);
+      if (stream_) {
+        stream_->accessed(misses.parts());
+      }
       return;
     }
     const SurfaceTiles& tiles = *task_.tiles;
@@ -321,12 +369,8 @@ class FastCore::Runner {
     const CachePlace place = cache_.place(task_.cached, block, block_x, block_y, in_block / kLanes);
     EarlyZCounters& counters = task_.draw->counters.early_z;
     ++counters.z_bursts;
-    for (int part = 0; part < cache_.parts; ++part) {
-      if ((touched >> part & 1) != 0) {
-        access_line(cache_, place, part, static_cast<int>(in_block % kLanes), (written >> part & 1) != 0,
-                    counters);
-      }
-    }
+    access_parts(cache_, place, static_cast<int>(in_block % kLanes), touched, written, counters,
+                 task_.stream);
   }
 
   /// Of a surface; with more, its tiles are resolved.
@@ -337,6 +381,8 @@ class FastCore::Runner {
   int tile_size_;
   int block_tiles_;  ///< on a side
   Watch watch_;
+  StreamReader* reader_;
+  std::optional<StreamWriter> stream_;  ///< where there is a reader
   WalkerConfig walker_;
   FrameResult result_;
   std::vector<SurfaceShape> shape_;  ///< that result_ has
@@ -352,8 +398,8 @@ class FastCore::Runner {
   std::unique_ptr<SetUpTriangles> set_up_ = std::make_unique<SetUpTriangles>();
 };
 
-FastCore::FastCore(const Config& config, const Watch& watch)
-    : runner_(std::make_unique<Runner>(config, watch)) {}
+FastCore::FastCore(const Config& config, const Watch& watch, StreamReader* reader)
+    : runner_(std::make_unique<Runner>(config, watch, reader)) {}
 FastCore::~FastCore() = default;
 FastCore::FastCore(FastCore&&) noexcept = default;
 
@@ -362,8 +408,8 @@ const Counters& FastCore::counters() const { return runner_->counters(); }
 FrameResult FastCore::take() { return runner_->take(); }
 
 std::string_view gap(const Config& config, const Watch& watch, const StreamReader* reader) {
-  if (reader != nullptr) {
-    return "time";
+  if (reader != nullptr && (reader->wants_accesses() || reader->wants_tiles())) {
+    return reader->wants_tiles() ? "a timeline" : "a record";
   }
   if (config.tile_walker.tile_size > 8) {
     return "tile_walker.tile_size = 16";

@@ -21,8 +21,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
 /// Runs frames one after the other, and keeps its memory from one to the next.
 class FastCore {
  public:
-  /// A run of `config` and `watch` must have no gap.
-  FastCore(const Config& config, const Watch& watch);
+  /// A run of `config`, `watch` and `reader` must have no gap. Where `reader` is not null, it reads the
+  /// packets of one run.
+  FastCore(const Config& config, const Watch& watch, StreamReader* reader = nullptr);
   ~FastCore();
   FastCore(FastCore&&) noexcept;
 

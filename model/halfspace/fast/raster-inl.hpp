@@ -28,13 +28,13 @@ class Raster {
  public:
   explicit Raster(const RasterTask& task)
       : task_(task),
-        walk_(task),
+        walk_(task, tallies_),
         early_z_(task, tallies_),
         small_(task, tallies_),
         takes_small_(Small<TileSize>::takes(task)) {}
 
   void triangles(const SetUpTriangles& in) {
-    const auto flush = [this] { test(); };
+    const auto flush = [this] { test(true); };
     for (std::size_t i = 0; i < in.count;) {
       const std::size_t room = std::min(static_cast<std::size_t>(kWidth), in.count - i);
       const std::size_t small =
@@ -42,7 +42,7 @@ class Raster {
               ? std::min(static_cast<std::size_t>(std::countr_one(Windows<TileSize>::among(in, i))), room)
               : 0;
       if (small >= kFewSmall) {
-        test();
+        test(false);
         small_.triangles(in, i, small);
         i += small;
         continue;
@@ -51,7 +51,7 @@ class Raster {
         one(in, i, flush);
       }
     }
-    test();
+    test(false);
     small_.tally();
     tallies_.add_to(*task_.draw, Walk<TileSize>::kSamples / 4);
   }
@@ -63,20 +63,31 @@ class Raster {
   template <class Flush>
   HWY_INLINE void one(const SetUpTriangles& in, std::size_t i, Flush&& flush) {
     if (triangle_count_ == triangles_.size()) {
-      test();
+      test(false);
       triangle_count_ = 0;
     }
     Triangle& t = triangles_[triangle_count_++];
     load_edges<TileSize>(in, i, task_.walker.block_size, t);
     load_depth<TileSize>(in, i, task_, t);
-    walk_.triangle(t, flush);
+    StreamWriter* const stream = task_.stream;
+    if (stream != nullptr) {
+      stream->drawn(static_cast<std::uint32_t>(in.order[i]));
+    }
+    const std::uint32_t steps_after = walk_.triangle(t, flush);
+    if (stream != nullptr) {
+      stream->walked(steps_after);
+    }
   }
 
-  void test() {
+  /// early_z of all visits: then what the stream says of jobs and of accesses belongs together.
+  void test(bool in_triangle) {
     for (std::size_t i = 0; i < walk_.visits(); ++i) {
       early_z_.visit(walk_.visit(i), walk_.masks(walk_.visit(i)));
     }
     walk_.clear();
+    if (task_.stream != nullptr && task_.stream->full()) {
+      task_.stream->give(in_triangle, nullptr);
+    }
   }
 
   const RasterTask& task_;

@@ -10,6 +10,7 @@
 #include "halfspace/fast/surface_tiles.hpp"
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/stream_writer.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/tile_walker.hpp"
 #include "halfspace/units/z_cache.hpp"
@@ -28,12 +29,13 @@ struct RasterTask {
   ZCache* tile_cache = nullptr;  ///< else the z cache, and the surface's tiles
   ZSurface place;
   int z_parts = 1;
+  StreamWriter* stream = nullptr;  ///< where somebody reads
 };
 
 /// Whether raster() takes `triangle`: its steps must fit the vectors' integers.
 bool raster_takes(const SetupTriangle& triangle, const WalkerConfig& walker);
 
-/// Draws triangles, all of which it takes. `tile_size` is 4 or 8.
+/// Draws triangles, all of which it takes. `tile_size` is 4 or 8. A full part of the stream is given away.
 void raster(int tile_size, const RasterTask& task, const SetUpTriangles& triangles);
 
 /// Makes the codes of all tiles of a surface that are planes.

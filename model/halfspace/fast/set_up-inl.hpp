@@ -14,6 +14,7 @@
 
 #include "halfspace/fast/front_end_task.hpp"
 #include "halfspace/fast/set_up.hpp"
+#include "halfspace/fast/tallies.hpp"
 #include "halfspace/fast/vertices-inl.hpp"
 #include "halfspace/units/depth_plane.hpp"
 
@@ -130,18 +131,17 @@ class Batch {
       return false;
     }
     const NarrowVector bounds[4] = {x_first, y_first, x_last, y_last};
-    if (drawn != 0 && !store(first, drawn, negative_area, area, bounds, out)) {
+    if (drawn != 0 && !store(first, counters.triangles, drawn, negative_area, area, bounds, out)) {
       return false;
     }
     front_end.triangles += kTriangles;
     front_end.emitted += kTriangles;
     counters.triangles += kTriangles;
-    const auto count = [](unsigned bits) { return static_cast<std::uint64_t>(std::popcount(bits)); };
-    counters.zero_area += count(flat);
-    counters.culled += count(culled);
-    counters.no_sample += count(no_sample);
-    counters.outside += count(outside);
-    counters.drawn += count(drawn);
+    counters.zero_area += ones(flat);
+    counters.culled += ones(culled);
+    counters.no_sample += ones(no_sample);
+    counters.outside += ones(outside);
+    counters.drawn += ones(drawn);
     return true;
   }
 
@@ -192,9 +192,10 @@ class Batch {
     v[2] = hn::IfThenElse(first2, v1, hn::IfThenElse(first1, v0, v2));
   }
 
-  /// Appends the triangles that are drawn. False where one of them is not for vectors.
-  bool store(std::uint32_t first, unsigned drawn, unsigned negative_area, WideLanes signed_area,
-             const NarrowVector* bounds, SetUpTriangles& out) {
+  /// Appends the triangles that are drawn; setup has seen `seen` before them. False where one of them is not
+  /// for vectors.
+  bool store(std::uint32_t first, std::uint64_t seen, unsigned drawn, unsigned negative_area,
+             WideLanes signed_area, const NarrowVector* bounds, SetUpTriangles& out) {
     const Wide wide;
     const Narrow narrow;
     const SetupState& state = task_.setup;
@@ -246,6 +247,7 @@ class Batch {
     kept.put(bounds[2], out.x_last);
     kept.put(bounds[3], out.y_last);
     kept.put(hn::Iota(narrow, static_cast<std::int32_t>(first)), out.number);
+    kept.put(hn::Iota(narrow, static_cast<std::int32_t>(seen)), out.order);
     out.count += static_cast<std::size_t>(std::popcount(drawn));
     return true;
   }

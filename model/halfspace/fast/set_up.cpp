@@ -60,6 +60,7 @@ void SetUpTriangles::append(const SetupTriangle& in, const DrawContext& draw, in
   x_last[i] = in.bounds.x_last;
   y_last[i] = in.bounds.y_last;
   number[i] = static_cast<std::int32_t>(in.triangle);
+  order[i] = static_cast<std::int32_t>(draw.counters.setup.triangles - 1);
   const DepthEquation& eq = in.depth;
   const DepthKind how = has_depth ? kind_of(eq, draw.early_z) : DepthKind::kNone;
   kind[i] = static_cast<std::int32_t>(how);

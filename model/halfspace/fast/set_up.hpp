@@ -55,6 +55,7 @@ struct SetUpTriangles {
   alignas(64) Field<std::int32_t> x_last;
   alignas(64) Field<std::int32_t> y_last;
   alignas(64) Field<std::int32_t> number;  ///< of the triangle in the draw
+  alignas(64) Field<std::int32_t> order;   ///< among those that setup has seen in the draw
   alignas(64) Field<std::int32_t> kind;    ///< DepthKind
   alignas(64) Field<std::int32_t> low;
   alignas(64) Field<std::int32_t> high;
@@ -75,7 +76,8 @@ struct SetUpTriangles {
     whole.clear();
   }
 
-  /// Appends what the readable setup made. `has_depth`: of the draw, there is a surface and a test.
+  /// Appends what the readable setup made of the last triangle that it counted in `draw`. `has_depth`: of the
+  /// draw, there is a surface and a test.
   void append(const SetupTriangle& triangle, const DrawContext& draw, int sub_pixel_bits, bool has_depth);
 };
 

@@ -57,6 +57,9 @@ class Small {
     in_ = &in;
     first_ = first;
     windows_.look_at(in, first, count);
+    if (task_.stream != nullptr) {
+      windows_.tell(*task_.stream);
+    }
     if (found_.hit == 0) {
       return;
     }
@@ -73,13 +76,6 @@ class Small {
   }
 
  private:
-  static HWY_INLINE Vector field(const SetUpTriangles::Field<std::int32_t>& values, std::size_t at) {
-    return hn::LoadU(Tag(), values.data() + at);
-  }
-  static HWY_INLINE std::uint64_t ones(std::uint32_t bits) {
-    return static_cast<std::uint64_t>(std::popcount(bits));
-  }
-
   // ---- early_z ----
 
   /// Calls visit(id, tile of the window, lane) for bits of bursts.
@@ -100,7 +96,6 @@ class Small {
       burst_bits_ |= every_fourth(found_.covered[q]) << q;
     }
     const Vector iota = hn::Iota(tag, 0);
-    const std::uint32_t lines = state_.test ? 1 : 0;
     for_bursts(burst_bits_, [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
       // Its samples, with the burst.
       const auto mask = static_cast<std::uint32_t>(found_.mask[q][lane]);
@@ -110,7 +105,7 @@ class Small {
         hn::StoreU(hn::Compress(hn::Add(tagged, set(i)), mask_of(bits)), tag, fragment_ + fragments_);
         fragments_ += static_cast<std::size_t>(std::popcount(bits));
       }
-      if (lines != 0) {
+      if (state_.test) {
         task_.tiles->open(static_cast<std::uint32_t>(found_.block[q][lane]));
         const std::uint32_t* const tile =
             task_.surface->codes.tile(static_cast<std::size_t>(found_.tile[q][lane]));
@@ -141,7 +136,7 @@ class Small {
       load_long();
       return;
     }
-    const Vector kind = field(in_->kind, first_);
+    const Vector kind = Windows<TileSize>::field(in_->kind, first_);
     const auto is_short = hn::Eq(kind, set(static_cast<std::int32_t>(DepthKind::kShort)));
     const QuadWords low = quad_words(0);
     const QuadWords high = kWidth > 1 ? quad_words(kWideWidth) : low;
@@ -317,8 +312,9 @@ class Small {
     const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
     const Vector column = hn::And(fragment, set(3));
     const Vector row = hn::And(hn::ShiftRight<2>(fragment), set(3));
-    const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values)
-                                HWY_ATTR { return hn::TableLookupLanes(field(values, first_), lane); };
+    const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values) HWY_ATTR {
+      return hn::TableLookupLanes(Windows<TileSize>::field(values, first_), lane);
+    };
     const Vector any = is_float_ ? long_codes(fragment) : short_codes(fragment);
     const Vector code = hn::Min(hn::Max(any, lane_field(in_->low)), lane_field(in_->high));
     // Where it is stored.
@@ -415,14 +411,14 @@ class Small {
   }
 
   void finish() {
-    counters_.early_z.tiles_killed += static_cast<std::uint64_t>(std::popcount(burst_bits_ & ~alive_));
+    counters_.early_z.tiles_killed += ones(burst_bits_ & ~alive_);
     if (!touches_depth_) {
       return;
     }
-    counters_.early_z.z_bursts += static_cast<std::uint64_t>(std::popcount(burst_bits_));
+    counters_.early_z.z_bursts += ones(burst_bits_);
     SurfaceTiles& tiles = *task_.tiles;
     BlockCache& cache = *task_.cache;
-    for_bursts(burst_bits_, [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
+    const auto look_up = [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
       const bool written = state_.write && (alive_ >> id & 1) != 0;
       if (written) {
         const auto at = static_cast<std::size_t>(found_.at[q][lane]);
@@ -435,8 +431,21 @@ class Small {
                              .line_bytes = task_.cached.line_bytes,
                              .entry = entry & ~std::size_t{kLanes - 1},
                              .word = block * cache.groups + (entry / kLanes & (cache.groups - 1))};
-      access_line(cache, place, 0, static_cast<int>(entry % kLanes), written, counters_.early_z);
-    });
+      access_parts(cache, place, static_cast<int>(entry % kLanes), 1, written ? 1 : 0, counters_.early_z,
+                   task_.stream);
+    };
+    if (task_.stream == nullptr || found_.columns_first == 0) {
+      for_bursts(burst_bits_, look_up);
+      return;
+    }
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(kWidth); ++lane) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t q = found_.tile_in_order(lane, i);
+        if (const std::size_t id = 4 * lane + q; (burst_bits_ >> id & 1) != 0) {
+          look_up(id, q, lane);
+        }
+      }
+    }
   }
 
   const RasterTask& task_;

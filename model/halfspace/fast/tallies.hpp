@@ -1,11 +1,37 @@
 /// What the raster kernels count of a draw.
 #pragma once
 
+#include <hwy/base.h>
+
+#include <array>
+#include <bit>
 #include <cstdint>
 
 #include "halfspace/machine/draw_context.hpp"
 
 namespace halfspace::fast {
+
+// Inlined, so that they count as the instruction set of who calls can.
+
+/// Bits that are set.
+HWY_INLINE std::uint64_t ones(std::uint64_t bits) { return static_cast<std::uint64_t>(std::popcount(bits)); }
+
+/// Tiles that the walker decided, a bit each. `accepted`: those inside each edge.
+HWY_INLINE void count_tiles(std::uint32_t rejected, std::uint32_t whole, std::uint32_t partial,
+                            const std::array<std::uint32_t, 3>& accepted, Counters& counters) {
+  counters.tile_walker.tiles_rejected += ones(rejected);
+  counters.tile_walker.tiles_accepted += ones(whole);
+  counters.tile_walker.tiles_partial += ones(partial);
+  std::uint64_t skipped = 0;
+  for (const std::uint32_t edge : accepted) {
+    skipped += ones(edge & partial);
+  }
+  EdgeEvaluatorCounters& evaluator = counters.edge_evaluator;
+  evaluator.tiles_skipped += ones(whole);
+  evaluator.tiles += ones(partial);
+  evaluator.edges_skipped += skipped;
+  evaluator.edges += 3 * ones(partial) - skipped;
+}
 
 struct Tallies {
   std::uint64_t bursts = 0;

@@ -16,7 +16,9 @@
 
 #include "halfspace/fast/depth_bounds-inl.hpp"
 #include "halfspace/fast/raster.hpp"
+#include "halfspace/fast/tallies.hpp"
 #include "halfspace/fast/triangle-inl.hpp"
+#include "halfspace/units/quad_generator.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
@@ -34,18 +36,21 @@ struct Visit {
   CodeRange range;           ///< where the triangle has depth
 };
 
-/// Tile walker and edge evaluator: turns triangles into visits. early_z takes them later, when what they need
-/// has come from memory.
+/// Tile walker, edge evaluator and quad generator: turns triangles into visits, and tells the stream of the
+/// jobs. early_z takes the visits later, when what they need has come from memory.
 template <int TileSize>
 class Walk {
  public:
   static constexpr int kSamples = TileSize * TileSize;
   static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kSamples);
+  static constexpr std::uint64_t kQuads = kSamples / 4;
   static constexpr std::size_t kMostVisits = 64;
   static constexpr std::size_t kMostTriangles = 16;
 
-  explicit Walk(const RasterTask& task)
+  Walk(const RasterTask& task, Tallies& tallies)
       : counters_(task.draw->counters),
+        tallies_(tallies),
+        stream_(task.stream),
         surface_(task.surface),
         tiles_(task.tiles),
         func_(task.draw->early_z.func),
@@ -58,9 +63,11 @@ class Walk {
         group_rows_(std::min(kLanes / block_tiles_, block_tiles_)),
         groups_(std::max(1, block_tiles_ * block_tiles_ / kLanes)) {}
 
-  /// Calls flush() whenever there is no room for another visit or triangle.
+  /// Calls flush() whenever there is no room for another visit or triangle. Returns the steps after the last
+  /// job.
   template <class Flush>
-  HWY_INLINE void triangle(Triangle& t, Flush&& flush) {
+  HWY_INLINE std::uint32_t triangle(Triangle& t, Flush&& flush) {
+    steps_ = 0;
     const PixelRect& bounds = t.bounds;
     const bool one_tile = bounds.x_first / TileSize == bounds.x_last / TileSize &&
                           bounds.y_first / TileSize == bounds.y_last / TileSize;
@@ -74,6 +81,7 @@ class Walk {
         block_row(t, x_first, x_last, y, flush);
       }
     }
+    return steps_;
   }
 
   [[nodiscard]] std::size_t visits() const { return visit_count_; }
@@ -107,6 +115,7 @@ class Walk {
       verdict = as_configured(verdict, 1);
       if (verdict.rejected != 0) {
         ++counters_.tile_walker.blocks_rejected;
+        ++steps_;
         return;
       }
     }
@@ -131,12 +140,16 @@ class Walk {
       }
       verdict.rejected = wide_negative(outside);
       verdict = as_configured(verdict, all);
-      counters_.tile_walker.blocks_rejected += static_cast<std::uint64_t>(std::popcount(verdict.rejected));
+      counters_.tile_walker.blocks_rejected += ones(verdict.rejected);
       const std::uint32_t whole = verdict.whole();
+      int next = 0;
       for (std::uint32_t left = all & ~verdict.rejected; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
+        steps_ += static_cast<std::uint32_t>(i - next);
+        next = i + 1;
         block(t, x + i, y, (whole >> i & 1) != 0, true, flush);
       }
+      steps_ += static_cast<std::uint32_t>(count - next);
     }
   }
 
@@ -180,6 +193,7 @@ class Walk {
     const bool filled = inside.x_last - inside.x_first == block_size_ - 1 &&
                         inside.y_last - inside.y_first == block_size_ - 1;
     TileWalkerCounters& walker = counters_.tile_walker;
+    steps_ += decided ? 1 : 0;
     if (covered && filled) {
       const std::uint64_t tiles = std::uint64_t{1} << 2 * tile_shift_;
       ++walker.blocks_accepted;
@@ -212,6 +226,8 @@ class Walk {
     }
     begin_visit(t, x, y, group).whole = static_cast<std::uint16_t>(whole);
     ++visit_count_;
+    count_whole(whole);
+    tell_jobs(whole, whole, whole, nullptr);
   }
 
   /// It is a visit when it is counted.
@@ -271,6 +287,7 @@ class Walk {
     }
     std::uint32_t touched = group_lanes(group, inside.x_first / TileSize, inside.x_last / TileSize,
                                         inside.y_first / TileSize, inside.y_last / TileSize);
+    const std::uint32_t decided = touched;
     verdict = as_configured(verdict, touched);
     touched &= ~verdict.rejected;
     std::uint32_t whole = verdict.whole() & touched;
@@ -280,8 +297,9 @@ class Walk {
                       (inside.y_first + TileSize - 1) / TileSize, (inside.y_last + 1) / TileSize - 1);
     }
     const std::uint32_t partial = touched & ~whole;
-    count(verdict, whole, partial);
+    count_tiles(verdict.rejected, whole, partial, verdict.accepted, counters_);
     if (touched == 0) {
+      steps_ += static_cast<std::uint32_t>(ones(decided));
       return;
     }
     if (visit_count_ == kMostVisits) {
@@ -292,6 +310,8 @@ class Walk {
     const std::uint32_t looked_at = t.kind == DepthKind::kNone ? 0 : ~dead(visit);
     const int first_x = x << tile_shift_;
     const int first_y = (y << tile_shift_) + group * group_rows_;
+    count_whole(whole);
+    std::array<std::uint8_t, kLanes> quads;
     for (std::uint32_t left = partial; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
       const int column = i & (block_tiles_ - 1);
@@ -300,6 +320,7 @@ class Walk {
       if (!filled) {
         mask &= inside_rect(inside, column * TileSize, (group * group_rows_ + row) * TileSize);
       }
+      quads[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(count_partial(mask));
       if (mask == 0) {
         continue;
       }
@@ -312,6 +333,48 @@ class Walk {
     counters_.edge_evaluator.tiles_empty +=
         static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
     visit_count_ += (visit.whole | visit.partial) != 0 ? 1 : 0;
+    tell_jobs(decided, touched, whole, quads.data());
+  }
+
+  // ---- what is counted of them ----
+
+  void count_whole(std::uint32_t lanes) {
+    const std::uint64_t tiles = ones(lanes);
+    tallies_.bursts += tiles;
+    tallies_.fragments += tiles * kSamples;
+    tallies_.quads += tiles * kQuads;
+    tallies_.full_quads += tiles * kQuads;
+  }
+
+  /// Returns the quads.
+  HWY_INLINE std::uint64_t count_partial(std::uint64_t mask) {
+    constexpr std::uint64_t kCorners = quad_corners<TileSize>();
+    const std::uint64_t any_pairs = mask | mask >> 1;
+    const std::uint64_t all_pairs = mask & mask >> 1;
+    const std::uint64_t quads = ones((any_pairs | any_pairs >> TileSize) & kCorners);
+    tallies_.bursts += mask != 0 ? 1 : 0;
+    tallies_.fragments += ones(mask);
+    tallies_.quads += quads;
+    tallies_.full_quads += ones((all_pairs & all_pairs >> TileSize) & kCorners);
+    return quads;
+  }
+
+  /// Of a group of tiles those that were decided, the jobs among them, and of these the ones that are covered
+  /// whole. `quads`: of the others, by lane.
+  HWY_INLINE void tell_jobs(std::uint32_t decided, std::uint32_t jobs, std::uint32_t whole,
+                            const std::uint8_t* quads) {
+    if (stream_ == nullptr) {
+      return;
+    }
+    for (std::uint32_t left = jobs; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const std::uint32_t upto = decided & ((2u << i) - 1);
+      decided &= ~upto;
+      stream_->job(steps_ + static_cast<std::uint32_t>(ones(upto)),
+                   (whole >> i & 1) != 0 ? static_cast<int>(kQuads) : quads[i]);
+      steps_ = 0;
+    }
+    steps_ += static_cast<std::uint32_t>(ones(decided));
   }
 
   /// Tiles of a visit whose samples will all die: what is written until their turn comes does not change
@@ -334,22 +397,6 @@ class Walk {
     for (int line = first + 1; line <= last; ++line) {
       hwy::Prefetch(codes + line * kLineSamples);
     }
-  }
-
-  HWY_INLINE void count(const Verdict& verdict, std::uint32_t whole, std::uint32_t partial) {
-    const auto ones = [](std::uint32_t bits) { return static_cast<std::uint64_t>(std::popcount(bits)); };
-    counters_.tile_walker.tiles_rejected += ones(verdict.rejected);
-    counters_.tile_walker.tiles_accepted += ones(whole);
-    counters_.tile_walker.tiles_partial += ones(partial);
-    EdgeEvaluatorCounters& evaluator = counters_.edge_evaluator;
-    std::uint64_t skipped = 0;
-    for (const std::uint32_t accepted : verdict.accepted) {
-      skipped += ones(accepted & partial);
-    }
-    evaluator.tiles_skipped += ones(whole);
-    evaluator.tiles += ones(partial);
-    evaluator.edges_skipped += skipped;
-    evaluator.edges += 3 * ones(partial) - skipped;
   }
 
   // ---- samples of a tile ----
@@ -391,6 +438,8 @@ class Walk {
   }
 
   Counters& counters_;
+  Tallies& tallies_;
+  StreamWriter* const stream_;
   Surface* const surface_;
   SurfaceTiles* const tiles_;
   const DepthFunc func_;
@@ -405,6 +454,7 @@ class Walk {
   std::array<Visit, kMostVisits> visits_;
   std::array<std::uint64_t, kMostVisits * kLanes> masks_;
   std::size_t visit_count_ = 0;
+  std::uint32_t steps_ = 0;  ///< since the last job; where there is a stream
   std::uint32_t mask_count_ = 0;
 };
 

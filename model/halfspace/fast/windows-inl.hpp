@@ -27,12 +27,18 @@ struct WindowBatch {
   Vector x;  ///< first pixel of the window
   Vector y;
   std::uint32_t hit = 0;                      ///< windows of which a sample is covered
+  std::uint32_t columns_first = 0;            ///< windows whose left tiles are a block apart from the right
   std::array<std::uint32_t, 4> covered{};     ///< and in this tile
   alignas(64) std::int32_t mask[4][kWidth];   ///< bit 4 y + x
   alignas(64) std::int32_t tile[4][kWidth];   ///< its number in the image
   alignas(64) std::int32_t block[4][kWidth];  ///< of its block
   alignas(64) std::int32_t at[4][kWidth];     ///< in SurfaceTiles
   alignas(64) std::int32_t entry[4][kWidth];  ///< in BlockCache
+
+  /// The walker's tile `i` of the window in `lane`.
+  [[nodiscard]] std::size_t tile_in_order(std::size_t lane, std::size_t i) const {
+    return (columns_first >> lane & 1) != 0 ? (i & 1) << 1 | i >> 1 : i;
+  }
 };
 
 /// Tile walker, edge evaluator and quad generator of small triangles, one a lane: each within a window of 4 x
@@ -83,6 +89,15 @@ class Windows {
     decide();
   }
 
+  /// Tells the triangles and their jobs.
+  void tell(StreamWriter& stream) const {
+    for (std::uint32_t left = all_; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      stream.drawn(static_cast<std::uint32_t>(in_->order[first_ + lane]));
+      stream.walked(tell_jobs(lane, stream));
+    }
+  }
+
   /// Adds what was counted in vectors to the tallies.
   void tally() {
     const auto total = [](Vector sum) HWY_ATTR {
@@ -94,16 +109,14 @@ class Windows {
     std::fill(std::begin(sum_), std::end(sum_), hn::Zero(Tag()));
   }
 
-  WindowBatch found;
-
- private:
+  /// Of triangles `at` and the next ones.
   static HWY_INLINE Vector field(const SetUpTriangles::Field<std::int32_t>& values, std::size_t at) {
     return hn::LoadU(Tag(), values.data() + at);
   }
-  static HWY_INLINE std::uint64_t ones(std::uint32_t bits) {
-    return static_cast<std::uint64_t>(std::popcount(bits));
-  }
 
+  WindowBatch found;
+
+ private:
   void place() {
     const Vector even = set(~1);
     x_first_ = field(in_->x_first, first_);
@@ -188,6 +201,8 @@ class Windows {
     const std::uint32_t tall = all_ & bits_of(hn::Gt(square(y_last_, kTileShift), tile_y));
     const std::uint32_t several = wide | tall;
     std::array<std::uint32_t, 4> blocked{};  // tiles whose block is rejected
+    several_ = several;
+    found.columns_first = 0;
     if (several != 0) {
       decide_blocks(several, blocked);
     }
@@ -195,6 +210,8 @@ class Windows {
     for (unsigned q = 0; q < 4; ++q) {
       std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u) & ~blocked[q];
       found.covered[q] = 0;
+      decided_[q] = there;
+      jobs_[q] = 0;
       if (there == 0) {
         continue;
       }
@@ -203,8 +220,9 @@ class Windows {
       corners(hn::ShiftLeft<kTileShift>(hn::Add(tile_x, set(static_cast<std::int32_t>(q & 1)))),
               hn::ShiftLeft<kTileShift>(hn::Add(tile_y, set(static_cast<std::int32_t>(q >> 1)))), TileSize,
               rejected, accepted);
-      count(there & rejected, there & ~rejected, accepted);
+      count_tiles(there & rejected, 0, there & ~rejected, accepted, counters_);
       there &= ~rejected;
+      jobs_[q] = there;
       // A half of the window where it lies on two tiles.
       const auto half = [&](std::uint32_t lanes, std::int32_t first, std::int32_t second, bool is_second) {
         return hn::IfThenElse(mask_of(lanes), set(is_second ? second : first), set(0xFFFF));
@@ -215,7 +233,7 @@ class Windows {
       const std::uint32_t covered = bits_of(hn::Ne(mask, hn::Zero(tag)));
       counters_.edge_evaluator.tiles_empty += ones(there & ~covered);
       hn::Store(mask, tag, found.mask[q]);
-      count_quads(mask, covered);
+      count_quads(q, mask, covered);
       found.covered[q] = covered;
       found.hit |= covered;
       if (covered != 0 && task_.tiles != nullptr) {
@@ -230,8 +248,12 @@ class Windows {
     const Vector first_y = hn::ShiftRightSame(y_first_, block_shift_);
     const std::uint32_t two_x = several & bits_of(hn::Gt(hn::ShiftRightSame(x_last_, block_shift_), first_x));
     const std::uint32_t two_y = several & bits_of(hn::Gt(hn::ShiftRightSame(y_last_, block_shift_), first_y));
+    two_x_ = two_x;
+    two_y_ = two_y;
+    found.columns_first = two_x & ~two_y;
     for (unsigned q = 0; q < 4; ++q) {
       const std::uint32_t there = several & ((q & 1) != 0 ? two_x : ~0u) & ((q & 2) != 0 ? two_y : ~0u);
+      blocks_[q] = there;
       if (there == 0) {
         continue;
       }
@@ -252,20 +274,7 @@ class Windows {
     }
   }
 
-  void count(std::uint32_t rejected, std::uint32_t evaluated, const std::array<std::uint32_t, 3>& accepted) {
-    counters_.tile_walker.tiles_rejected += ones(rejected);
-    counters_.tile_walker.tiles_partial += ones(evaluated);
-    std::uint64_t skipped = 0;
-    for (const std::uint32_t each : accepted) {
-      skipped += ones(evaluated & each);
-    }
-    EdgeEvaluatorCounters& evaluator = counters_.edge_evaluator;
-    evaluator.tiles += ones(evaluated);
-    evaluator.edges_skipped += skipped;
-    evaluator.edges += 3 * ones(evaluated) - skipped;
-  }
-
-  void count_quads(Vector mask, std::uint32_t covered) {
+  void count_quads(unsigned q, Vector mask, std::uint32_t covered) {
     const Vector any_pairs = hn::Or(mask, hn::ShiftRight<1>(mask));
     const Vector all_pairs = hn::And(mask, hn::ShiftRight<1>(mask));
     const Vector corners = set(0x0505);
@@ -279,6 +288,9 @@ class Windows {
     add(0, mask);
     add(1, any);
     add(2, full);
+    if (task_.stream != nullptr) {
+      hn::Store(hn::BitCast(Tag(), hn::PopulationCount(hn::BitCast(plain, any))), Tag(), quads_[q]);
+    }
   }
 
   /// Where the tiles are: in the image, in SurfaceTiles and in the z cache.
@@ -302,6 +314,28 @@ class Windows {
     hn::Store(hn::Add(hn::Mul(set_of_block, number(cache.entries)), inside), tag, found.entry[q]);
   }
 
+  /// Returns the steps after the last job.
+  std::uint32_t tell_jobs(std::size_t lane, StreamWriter& stream) const {
+    const auto is_set = [lane](std::uint32_t lanes) { return (lanes >> lane & 1) != 0; };
+    const bool has_blocks = is_set(several_);
+    const bool two_x = has_blocks && is_set(two_x_);
+    const bool two_y = has_blocks && is_set(two_y_);
+    std::uint32_t steps = 0;
+    std::size_t last_block = 4;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t q = found.tile_in_order(lane, i);
+      const std::size_t block = (two_x ? q & 1 : 0) | (two_y ? q & 2 : 0);
+      steps += has_blocks && block != last_block && is_set(blocks_[block]) ? 1 : 0;
+      last_block = block;
+      steps += is_set(decided_[q]) ? 1 : 0;
+      if (is_set(jobs_[q])) {
+        stream.job(steps, is_set(found.covered[q]) ? quads_[q][lane] : 0);
+        steps = 0;
+      }
+    }
+    return steps;
+  }
+
   const RasterTask& task_;
   Counters& counters_;
   Tallies& tallies_;
@@ -318,6 +352,15 @@ class Windows {
   Vector b_[3];
   Vector e_[3];  ///< at the window's first sample
   Vector inside_;
+
+  // Of the walk, for the stream: bits of lanes.
+  std::uint32_t several_ = 0;               ///< with more tiles than one, so with blocks
+  std::uint32_t two_x_ = 0;                 ///< with two blocks in a row
+  std::uint32_t two_y_ = 0;                 ///< and in a column
+  std::array<std::uint32_t, 4> blocks_{};   ///< that are decided
+  std::array<std::uint32_t, 4> decided_{};  ///< tiles
+  std::array<std::uint32_t, 4> jobs_{};     ///< of these, not rejected
+  alignas(64) std::int32_t quads_[4][kWidth];
 
   // Since the last tally(): fragments, quads, full quads.
   Vector sum_[3] = {hn::Zero(Tag()), hn::Zero(Tag()), hn::Zero(Tag())};

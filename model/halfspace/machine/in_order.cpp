@@ -96,7 +96,7 @@ class InOrderRun {
         }
       }
       if (draw != nullptr && stream_) {
-        stream_->end_segment();
+        stream_->end_segment(draw->counters.setup.triangles);
       }
     }
     flush();
@@ -120,19 +120,16 @@ class InOrderRun {
     z_cache_.clear(places_[item.surface]);
     if (stream_) {
       stream_->begin_segment(StreamSegment::Kind::kFastClear, item.surface, false);
-      stream_->end_segment();
+      stream_->end_segment(0);
     }
   }
 
   void set_up(const ScreenTriangle& triangle) {
     if (!passage::setup(triangle, *draw_, triangle_)) {
-      if (stream_) {
-        stream_->dropped();
-      }
       return;
     }
     if (stream_) {
-      stream_->drawn();
+      stream_->drawn(static_cast<std::uint32_t>(draw_->counters.setup.triangles - 1));
     }
     const std::uint32_t steps_after = walker_.walk<TileSize>(
         triangle_, *draw_,
@@ -187,7 +184,7 @@ class InOrderRun {
     const ZMisses misses =
         passage::z_cache(z_cache_, places_[draw_->surface], coverage, touched, written, *draw_);
     if (stream_) {
-      stream_->access(misses.parts());
+      stream_->accessed(misses.parts());
       if (wants_accesses_) {
         constexpr int kBands = stream_bands(TileSize);
         stream_->access({coverage.tile_x, coverage.tile_y,

@@ -130,7 +130,8 @@ class StreamReader {
   /// It knows in which cycle a burst leaves early_z.
   [[nodiscard]] virtual bool has_time() const { return false; }
 
-  /// Before the first part. `memory_lines`: lines of memory that all surfaces take.
+  /// Before the first part. `memory_lines`: lines of memory that all surfaces take. Whoever writes the stream
+  /// numbers them, below that.
   virtual void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) = 0;
   /// The next part. Where `burst_cycles` is not null, which it is only where the reader has time, appends for
   /// each of its bursts the cycle in which the first beat leaves early_z.

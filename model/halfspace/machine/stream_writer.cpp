@@ -14,10 +14,11 @@ StreamWriter::StreamWriter(StreamReader& reader, std::string frame)
 void StreamWriter::begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth) {
   packets_.segments.push_back({.kind = kind, .surface = surface, .touches_depth = touches_depth ? 1u : 0u});
   in_segment_ = true;
+  seen_ = 0;
 }
 
-void StreamWriter::end_segment() {
-  packets_.segments.back().dropped_after = std::exchange(dropped_, 0);
+void StreamWriter::end_segment(std::uint64_t triangles) {
+  packets_.segments.back().dropped_after = static_cast<std::uint32_t>(triangles) - seen_;
   in_segment_ = false;
 }
 

@@ -16,14 +16,14 @@ class StreamWriter {
   StreamWriter(StreamReader& reader, std::string frame);
 
   void begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth);
-  void end_segment();
+  /// `triangles`: that setup has seen in the segment.
+  void end_segment(std::uint64_t triangles);
 
-  /// Setup dropped a triangle.
-  void dropped() { ++dropped_; }
-  /// Setup gave a triangle to the walker, whose tile jobs follow.
-  void drawn() {
-    packets_.triangles.push_back({.dropped_before = dropped_, .jobs = 0, .steps_after = 0});
-    dropped_ = 0;
+  /// Setup gave a triangle to the walker, whose tile jobs follow: the segment's triangle `number`, from 0.
+  /// Those since the last one were dropped.
+  void drawn(std::uint32_t number) {
+    packets_.triangles.push_back({.dropped_before = number - seen_, .jobs = 0, .steps_after = 0});
+    seen_ = number + 1;
     ++packets_.segments.back().triangles;
   }
   /// A tile job. Throws InputError where it took more than kMostSteps.
@@ -34,13 +34,20 @@ class StreamWriter {
     ++packets_.triangles.back().jobs;
     packets_.jobs.emplace_back(steps, quads);
   }
-  /// The burst of the last job has to do with stored depth, and missed so much in the z cache.
-  void access(std::span<const ZMiss> misses) {
-    for (const ZMiss& miss : misses) {
-      z_.misses.push_back(miss);
-      z_.burst.push_back(accesses_);
+  /// So many bursts have to do with stored depth, in the order of their jobs; what they missed in the z cache
+  /// has been said.
+  void accessed(std::uint32_t bursts = 1) { accesses_ += bursts; }
+  /// A burst has, and missed so much.
+  void accessed(std::span<const ZMiss> misses) {
+    for (const ZMiss& each : misses) {
+      miss(each);
     }
-    ++accesses_;
+    accessed();
+  }
+  /// A miss of the burst that has `before` between it and the last that was counted.
+  void miss(const ZMiss& miss, std::uint32_t before = 0) {
+    z_.misses.push_back(miss);
+    z_.burst.push_back(accesses_ + before);
   }
   /// What that access was, for readers that want accesses.
   void access(const StreamAccess& access) { packets_.accesses.push_back(access); }
@@ -68,7 +75,7 @@ class StreamWriter {
   ZMissStream z_;
   std::vector<StreamTile> tiles_;
   std::uint32_t accesses_ = 0;  ///< of the part
-  std::uint32_t dropped_ = 0;   ///< since the last triangle that was drawn
+  std::uint32_t seen_ = 0;      ///< triangles of the segment, to the last that was drawn
   bool in_segment_ = false;
   bool continues_segment_ = false;
   bool continues_triangle_ = false;
