@@ -31,19 +31,24 @@ class Raster {
         walk_(task, tallies_),
         early_z_(task, tallies_),
         small_(task, tallies_),
-        takes_small_(Small<TileSize>::takes(task)) {}
+        middle_(task, tallies_),
+        takes_small_(takes_small(task)) {}
 
   void triangles(const SetUpTriangles& in) {
     const auto flush = [this] { test(true); };
     for (std::size_t i = 0; i < in.count;) {
       const std::size_t room = std::min(static_cast<std::size_t>(kWidth), in.count - i);
-      const std::size_t small =
-          takes_small_
-              ? std::min(static_cast<std::size_t>(std::countr_one(Windows<TileSize>::among(in, i))), room)
-              : 0;
+      const auto run = [&](std::uint32_t lanes) {
+        return std::min(static_cast<std::size_t>(std::countr_one(lanes)), room);
+      };
+      const std::size_t small = takes_small_ ? run(Windows<TileSize, TileSize>::among(in, i)) : 0;
       if (small >= kFewSmall) {
         test(false);
-        small_.triangles(in, i, small);
+        if (run(Windows<TileSize, 4>::among(in, i)) >= small) {
+          small_.triangles(in, i, small);
+        } else {
+          middle_.triangles(in, i, small);
+        }
         i += small;
         continue;
       }
@@ -53,6 +58,7 @@ class Raster {
     }
     test(false);
     small_.tally();
+    middle_.tally();
     tallies_.add_to(*task_.draw, Walk<TileSize>::kSamples / 4);
   }
 
@@ -94,7 +100,8 @@ class Raster {
   Walk<TileSize> walk_;
   Tallies tallies_;
   EarlyZ<TileSize> early_z_;
-  Small<TileSize> small_;
+  Small<TileSize, 4> small_;
+  Small<TileSize, TileSize> middle_;  ///< the same where tiles are as small
   bool takes_small_;
   std::array<Triangle, Walk<TileSize>::kMostTriangles> triangles_;
   std::size_t triangle_count_ = 0;

@@ -24,12 +24,19 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// Small triangles, one a lane: all stages of the pipe at once.
-template <int TileSize>
+/// Draws whose small triangles Small takes: what watches is shown fragments that are tested.
+HWY_INLINE bool takes_small(const RasterTask& task) {
+  const EarlyZState& state = task.draw->early_z;
+  const bool watches = task.counts_pixels || task.draw->keeps_visible;
+  return task.tile_cache == nullptr && task.z_parts == 1 &&
+         (!watches || (state.test && state.func != DepthFunc::kNever));
+}
+
+/// Small triangles, one a lane: all stages of the pipe at once. Each is within a window of Side x Side
+/// samples.
+template <int TileSize, int Side>
 class Small {
  public:
-  static constexpr int kSide = Windows<TileSize>::kSide;
-
   explicit Small(const RasterTask& task, Tallies& tallies)
       : task_(task),
         state_(task.draw->early_z),
@@ -43,14 +50,6 @@ class Small {
 
   /// Adds what was counted in vectors to the tallies.
   void tally() { windows_.tally(); }
-
-  /// Draws whose small triangles it takes: what watches is shown fragments that are tested.
-  static bool takes(const RasterTask& task) {
-    const EarlyZState& state = task.draw->early_z;
-    const bool watches = task.counts_pixels || task.draw->keeps_visible;
-    return task.tile_cache == nullptr && task.z_parts == 1 &&
-           (!watches || (state.test && state.func != DepthFunc::kNever));
-  }
 
   /// Draws `count` small triangles, at most kWidth.
   void triangles(const SetUpTriangles& in, std::size_t first, std::size_t count) {
@@ -98,22 +97,39 @@ class Small {
     const Vector iota = hn::Iota(tag, 0);
     for_bursts(burst_bits_, [&](std::size_t id, std::size_t q, std::size_t lane) HWY_ATTR {
       // Its samples, with the burst.
-      const auto mask = static_cast<std::uint32_t>(found_.mask[q][lane]);
-      const Vector tagged = hn::Or(iota, set(static_cast<std::int32_t>(id << 4)));
-      for (int i = 0; i < kSide * kSide; i += kWidth) {
-        const std::uint32_t bits = mask >> i & ((1u << kWidth) - 1);
+      const Vector tagged = hn::Add(iota, set(static_cast<std::int32_t>(id << kSampleBits)));
+      const std::uint64_t mask = mask_of_burst(q, lane);
+      for (int i = 0; i < kSamples; i += kWidth) {
+        const auto bits = static_cast<std::uint32_t>(mask >> i & ((1u << kWidth) - 1));
         hn::StoreU(hn::Compress(hn::Add(tagged, set(i)), mask_of(bits)), tag, fragment_ + fragments_);
         fragments_ += static_cast<std::size_t>(std::popcount(bits));
       }
       if (state_.test) {
         task_.tiles->open(static_cast<std::uint32_t>(found_.block[q][lane]));
-        const std::uint32_t* const tile =
-            task_.surface->codes.tile(static_cast<std::size_t>(found_.tile[q][lane]));
-        const int row = in_->y_first[first_ + lane] & (TileSize - 2);
-        hwy::Prefetch(tile + row * TileSize);
-        hwy::Prefetch(tile + std::min(row + 2, TileSize - 2) * TileSize);
+        const int y = in_->y_first[first_ + lane] & ~1;
+        prefetch(task_.surface->codes.tile(static_cast<std::size_t>(found_.tile[q][lane])),
+                 y + std::countr_zero(mask) / Side, y + (63 - std::countl_zero(mask)) / Side);
       }
     });
+  }
+
+  /// Bit Side * y + x, of the window.
+  [[nodiscard]] HWY_INLINE std::uint64_t mask_of_burst(std::size_t q, std::size_t lane) const {
+    std::uint64_t mask = 0;
+    for (std::size_t word = 0; word < WindowBatch<Side>::kWords; ++word) {
+      mask |= std::uint64_t{static_cast<std::uint32_t>(found_.mask[q][word][lane])}
+              << (word * WindowBatch<Side>::kRows * Side);
+    }
+    return mask;
+  }
+
+  /// The lines of the processor's cache that hold rows of a tile.
+  static HWY_INLINE void prefetch(const std::uint32_t* tile, int first_y, int last_y) {
+    constexpr int kLineSamples = 16;
+    const int last = (last_y & (TileSize - 1)) * TileSize / kLineSamples;
+    for (int line = (first_y & (TileSize - 1)) * TileSize / kLineSamples; line <= last; ++line) {
+      hwy::Prefetch(tile + line * kLineSamples);
+    }
   }
 
   /// Bit i becomes bit 4 i, of 16.
@@ -130,21 +146,24 @@ class Small {
     alive_ = burst_bits_;
   }
 
-  /// Words at the quads of the windows, and their steps.
+  // An anchor is the first pixel of a square of kAnchorSize. A window has samples of one square or, where it
+  // crosses a border, of the next ones: by right and below, as tiles.
+
+  /// Words at the anchors, and their steps.
   void load_depth() {
     if (is_float_) {
       load_long();
       return;
     }
-    const Vector kind = Windows<TileSize>::field(in_->kind, first_);
+    const Vector kind = Windows<TileSize, Side>::field(in_->kind, first_);
     const auto is_short = hn::Eq(kind, set(static_cast<std::int32_t>(DepthKind::kShort)));
-    const QuadWords low = quad_words(0);
-    const QuadWords high = kWidth > 1 ? quad_words(kWideWidth) : low;
+    const AnchorWords low = anchor_words(0);
+    const AnchorWords high = kWidth > 1 ? anchor_words(kWideWidth) : low;
     const auto keep = [&](WideVector first, WideVector second, std::int32_t* to) HWY_ATTR {
       hn::Store(hn::IfThenElseZero(is_short, narrow(first, second)), Tag(), to);
     };
-    for (std::size_t q = 0; q < 4; ++q) {
-      keep(low.origin[q], high.origin[q], origin_[q]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      keep(low.origin[i], high.origin[i], origin_[i]);
     }
     keep(low.step_x, high.step_x, step_x_);
     keep(low.step_y, high.step_y, step_y_);
@@ -156,18 +175,19 @@ class Small {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       const std::size_t at = first_ + lane;
       if (in_->kind[at] == static_cast<std::int32_t>(DepthKind::kFlat)) {  // its range says all
-        for (std::size_t q = 0; q < 4; ++q) {
-          long_origin_[q * kWidth + lane] = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+          long_origin_[i * kWidth + lane] = 0;
         }
         long_step_x_[lane] = long_step_y_[lane] = rebias_[lane] = 0;
         continue;
       }
       const LongWords words = long_words(plane_of(*in_, at), state_.sub_pixel_bits);
-      const std::uint32_t x = static_cast<std::uint32_t>(in_->x_first[at]) & ~1u;
-      const std::uint32_t y = static_cast<std::uint32_t>(in_->y_first[at]) & ~1u;
-      for (std::uint32_t q = 0; q < 4; ++q) {
-        long_origin_[q * kWidth + lane] =
-            static_cast<std::int64_t>(words.at(x + 2 * (q & 1), y + 2 * (q >> 1)));
+      constexpr auto kSquare = static_cast<std::uint32_t>(kAnchorSize);
+      const std::uint32_t x = static_cast<std::uint32_t>(in_->x_first[at]) & ~(kSquare - 1);
+      const std::uint32_t y = static_cast<std::uint32_t>(in_->y_first[at]) & ~(kSquare - 1);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        long_origin_[i * kWidth + lane] =
+            static_cast<std::int64_t>(words.at(x + kSquare * (i & 1), y + kSquare * (i >> 1)));
       }
       long_step_x_[lane] = static_cast<std::int64_t>(words.step_x);
       long_step_y_[lane] = static_cast<std::int64_t>(words.step_y);
@@ -175,58 +195,83 @@ class Small {
     }
   }
 
-  /// Codes of fragments, not yet within the ranges of their triangles.
-  HWY_INLINE Vector long_codes(Vector fragment) const {
-    alignas(64) std::int32_t fragments[kWidth];
-    hn::Store(fragment, Tag(), fragments);
-    const WideVector low = wide_codes(fragments);
-    return narrow(low, kWidth > 1 ? wide_codes(fragments + kWideWidth) : low);
-  }
+  /// Fragments in the lanes of a vector: the lane of the triangle's window, and where they are.
+  struct Fragments {
+    Vector lane;
+    Vector x;
+    Vector y;
+    hn::Mask<Tag> right;  ///< beyond the window's first anchors
+    hn::Mask<Tag> below;
+  };
 
-  HWY_INLINE WideVector wide_codes(const std::int32_t* fragments) const {
-    const WideTag wide;
-    const hn::Rebind<std::int32_t, WideTag> half;
-    const WideVector fragment = hn::PromoteTo(wide, hn::LoadU(half, fragments));
-    const auto bit = [&](int shift) HWY_ATTR {
-      return hn::And(hn::ShiftRightSame(fragment, shift), hn::Set(wide, std::int64_t{1}));
-    };
-    const auto is_odd = [&](int shift) HWY_ATTR { return hn::Ne(bit(shift), hn::Zero(wide)); };
-    constexpr int kLaneShift = std::countr_zero(static_cast<unsigned>(kWidth));
-    const WideVector lane = hn::ShiftRight<6>(fragment);
-    const WideVector quad = hn::Add(bit(1), hn::ShiftLeft<1>(bit(3)));
-    const WideVector origin =
-        hn::GatherIndex(wide, long_origin_, hn::Add(hn::ShiftLeft<kLaneShift>(quad), lane));
-    const WideVector right = hn::IfThenElseZero(is_odd(0), hn::GatherIndex(wide, long_step_x_, lane));
-    const WideVector down = hn::IfThenElseZero(is_odd(2), hn::GatherIndex(wide, long_step_y_, lane));
-    return float_codes(hn::Add(origin, hn::Add(right, down)), hn::GatherIndex(wide, rebias_, lane));
-  }
-
-  /// Codes of fragments of unorm surfaces, not yet within the ranges of their triangles.
-  HWY_INLINE Vector short_codes(Vector fragment) const {
+  /// `fragment`: the samples' numbers.
+  HWY_INLINE Fragments located(Vector fragment) const {
     const Tag tag;
-    const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
+    const Vector lane = hn::ShiftRight<kSampleBits + 2>(fragment);
+    const auto of_lane = hn::IndicesFromVec(tag, lane);
+    const Vector first_x = hn::TableLookupLanes(found_.x, of_lane);
+    const Vector first_y = hn::TableLookupLanes(found_.y, of_lane);
+    const Vector x = hn::Add(first_x, hn::And(fragment, set(Side - 1)));
+    const Vector y = hn::Add(first_y, hn::And(hn::ShiftRight<kSampleBits / 2>(fragment), set(Side - 1)));
+    const auto crosses = [&](Vector at, Vector first) HWY_ATTR {
+      return hn::Ne(hn::And(hn::Xor(at, first), set(kAnchorSize)), hn::Zero(tag));
+    };
+    return {.lane = lane, .x = x, .y = y, .right = crosses(x, first_x), .below = crosses(y, first_y)};
+  }
+
+  /// Codes on a float32 surface, not yet within the ranges of their triangles.
+  HWY_INLINE Vector long_codes(const Fragments& at) const {
+    const Tag tag;
+    const Vector in_square = set(kAnchorSize - 1);
+    const Vector anchor = hn::Add(hn::IfThenElseZero(at.right, set(1)), hn::IfThenElseZero(at.below, set(2)));
+    alignas(64) std::int32_t lane[kWidth];
+    alignas(64) std::int32_t origin[kWidth];
+    alignas(64) std::int32_t x[kWidth];
+    alignas(64) std::int32_t y[kWidth];
+    hn::Store(at.lane, tag, lane);
+    hn::Store(hn::Add(hn::ShiftLeft<std::countr_zero(static_cast<unsigned>(kWidth))>(anchor), at.lane), tag,
+              origin);
+    hn::Store(hn::And(at.x, in_square), tag, x);
+    hn::Store(hn::And(at.y, in_square), tag, y);
+    const auto codes = [&](int i) HWY_ATTR {
+      const WideTag wide;
+      const hn::Rebind<std::int32_t, WideTag> half;
+      const auto all = [&](const std::int32_t* from)
+                           HWY_ATTR { return hn::PromoteTo(wide, hn::LoadU(half, from + i)); };
+      const auto of_lane = [&](const std::int64_t* from)
+                               HWY_ATTR { return hn::GatherIndex(wide, from, all(lane)); };
+      const WideVector steps =
+          hn::Add(hn::Mul(all(x), of_lane(long_step_x_)), hn::Mul(all(y), of_lane(long_step_y_)));
+      return float_codes(hn::Add(hn::GatherIndex(wide, long_origin_, all(origin)), steps), of_lane(rebias_));
+    };
+    const WideVector low = codes(0);
+    return narrow(low, kWidth > 1 ? codes(kWideWidth) : low);
+  }
+
+  /// Codes on a unorm surface, not yet within the ranges of their triangles.
+  HWY_INLINE Vector short_codes(const Fragments& at) const {
+    const Tag tag;
+    const auto lane = hn::IndicesFromVec(tag, at.lane);
     const auto of_lane = [&](const std::int32_t* values)
                              HWY_ATTR { return hn::TableLookupLanes(hn::Load(tag, values), lane); };
-    const auto is_set = [&](std::int32_t bit)
-                            HWY_ATTR { return hn::Ne(hn::And(fragment, set(bit)), hn::Zero(tag)); };
-    const auto right = is_set(2);
     const Vector origin =
-        hn::IfThenElse(is_set(8), hn::IfThenElse(right, of_lane(origin_[3]), of_lane(origin_[2])),
-                       hn::IfThenElse(right, of_lane(origin_[1]), of_lane(origin_[0])));
-    const Vector word = hn::Add(origin, hn::Add(hn::IfThenElseZero(is_set(1), of_lane(step_x_)),
-                                                hn::IfThenElseZero(is_set(4), of_lane(step_y_))));
-    return hn::ShiftRightSame(word, fraction_);
+        hn::IfThenElse(at.below, hn::IfThenElse(at.right, of_lane(origin_[3]), of_lane(origin_[2])),
+                       hn::IfThenElse(at.right, of_lane(origin_[1]), of_lane(origin_[0])));
+    const Vector in_square = set(kAnchorSize - 1);
+    const Vector steps = hn::Add(hn::Mul(hn::And(at.x, in_square), of_lane(step_x_)),
+                                 hn::Mul(hn::And(at.y, in_square), of_lane(step_y_)));
+    return hn::ShiftRightSame(hn::Add(origin, steps), fraction_);
   }
 
   /// Words modulo 2^64, of which the low half counts.
-  struct QuadWords {
+  struct AnchorWords {
     WideVector origin[4];
     WideVector step_x;
     WideVector step_y;
   };
 
   /// Of kWideWidth windows. tile_plane (units/depth_plane.hpp), which ShortWords does for a tile.
-  HWY_INLINE QuadWords quad_words(int first) const {
+  HWY_INLINE AnchorWords anchor_words(int first) const {
     const WideTag wide;
     const hn::Rebind<std::int32_t, WideTag> half_tag;
     const int s = state_.sub_pixel_bits;
@@ -241,42 +286,27 @@ class Small {
     const WideVector half_pixel = hn::Set(wide, std::int64_t{1} << (s - 1));
     const WideVector half = hn::Set(wide, static_cast<std::int64_t>(ShortWords::kHalf));
     const WideVector square = hn::Set(wide, ~std::int64_t{kAnchorSize - 1});
-    const WideVector even = hn::Set(wide, ~std::int64_t{1});
-    const WideVector px = hn::And(whole(in_->x_first), even);
-    const WideVector py = hn::And(whole(in_->y_first), even);
-    // From the vertex to the first pixel of the square of kAnchorSize that the window begins on.
-    const auto from_vertex = [&](WideVector pixel,
+    // From the vertex to the first anchor.
+    const auto from_vertex = [&](const SetUpTriangles::Field<std::int32_t>& pixel,
                                  const SetUpTriangles::Field<std::int32_t>& vertex) HWY_ATTR {
-      return hn::Add(hn::ShiftLeftSame(hn::And(pixel, square), s), hn::Sub(half_pixel, whole(vertex)));
+      return hn::Add(hn::ShiftLeftSame(hn::And(whole(pixel), square), s), hn::Sub(half_pixel, whole(vertex)));
     };
-    const WideVector anchor =
-        hn::Add(hn::Add(hn::ShiftLeft<kGradientFraction>(wide_field(in_->z)), half),
-                hn::Add(hn::Mul(dx, from_vertex(px, in_->x)), hn::Mul(dy, from_vertex(py, in_->y))));
+    const WideVector word = hn::Add(hn::Add(hn::ShiftLeft<kGradientFraction>(wide_field(in_->z)), half),
+                                    hn::Add(hn::Mul(dx, from_vertex(in_->x_first, in_->x)),
+                                            hn::Mul(dy, from_vertex(in_->y_first, in_->y))));
     const auto step = [&](WideVector gradient) HWY_ATTR {
       return hn::ShiftRight<kGradientFraction>(hn::Add(hn::ShiftLeftSame(gradient, s), half));
     };
-    QuadWords words{.origin = {}, .step_x = step(dx), .step_y = step(dy)};
+    const auto next = [&](WideVector gradient)
+                          HWY_ATTR { return hn::ShiftLeftSame(gradient, s + kAnchorShift); };
     const WideVector added = wide_field(in_->added);
-    // In one direction: what the square of the window's second half has more, and the steps from it.
-    struct Half {
-      WideVector anchor;
-      WideVector steps;
-    };
-    const auto half_of = [&](WideVector pixel, std::int64_t more, WideVector gradient,
-                             WideVector steps) HWY_ATTR {
-      const WideVector there = hn::Add(pixel, hn::Set(wide, more));
-      const auto same = hn::Eq(hn::And(there, square), hn::And(pixel, square));
-      const WideVector next = hn::ShiftLeftSame(gradient, s + std::countr_zero(unsigned{kAnchorSize}));
-      return Half{hn::IfThenZeroElse(same, next), hn::Mul(hn::AndNot(square, there), steps)};
-    };
-    const Half right[2] = {half_of(px, 0, dx, words.step_x), half_of(px, 2, dx, words.step_x)};
-    const Half down[2] = {half_of(py, 0, dy, words.step_y), half_of(py, 2, dy, words.step_y)};
-    for (std::size_t q = 0; q < 4; ++q) {
-      const WideVector word = hn::Add(anchor, hn::Add(right[q & 1].anchor, down[q >> 1].anchor));
-      words.origin[q] = hn::Add(hn::Add(hn::ShiftRight<kGradientFraction>(word), added),
-                                hn::Add(right[q & 1].steps, down[q >> 1].steps));
-    }
-    return words;
+    const auto origin = [&](WideVector anchor)
+                            HWY_ATTR { return hn::Add(hn::ShiftRight<kGradientFraction>(anchor), added); };
+    const WideVector below = hn::Add(word, next(dy));
+    return {.origin = {origin(word), origin(hn::Add(word, next(dx))), origin(below),
+                       origin(hn::Add(below, next(dx)))},
+            .step_x = step(dx),
+            .step_y = step(dy)};
   }
 
   /// Tests the fragments of all bursts, kWidth at a time.
@@ -309,17 +339,16 @@ class Small {
     const Vector inactive = set(0);
     const auto active = hn::FirstN(tag, count);
     const Vector fragment = hn::IfThenElse(active, hn::LoadU(tag, fragment_ + first), inactive);
-    const auto lane = hn::IndicesFromVec(tag, hn::ShiftRight<6>(fragment));
-    const Vector column = hn::And(fragment, set(3));
-    const Vector row = hn::And(hn::ShiftRight<2>(fragment), set(3));
+    const Fragments at_samples = located(fragment);
+    const auto lane = hn::IndicesFromVec(tag, at_samples.lane);
     const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values) HWY_ATTR {
-      return hn::TableLookupLanes(Windows<TileSize>::field(values, first_), lane);
+      return hn::TableLookupLanes(Windows<TileSize, Side>::field(values, first_), lane);
     };
-    const Vector any = is_float_ ? long_codes(fragment) : short_codes(fragment);
+    const Vector any = is_float_ ? long_codes(at_samples) : short_codes(at_samples);
     const Vector code = hn::Min(hn::Max(any, lane_field(in_->low)), lane_field(in_->high));
     // Where it is stored.
-    const Vector x = hn::Add(hn::TableLookupLanes(found_.x, lane), column);
-    const Vector y = hn::Add(hn::TableLookupLanes(found_.y, lane), row);
+    const Vector x = at_samples.x;
+    const Vector y = at_samples.y;
     const Vector tile =
         hn::Add(hn::Mul(hn::ShiftRightSame(y, kTileShift), set(task_.surface->codes.tiles_x())),
                 hn::ShiftRightSame(x, kTileShift));
@@ -346,7 +375,7 @@ class Small {
   }
 
   HWY_INLINE void passed(std::int32_t fragment, std::int32_t at, std::int32_t code, std::int32_t* stored) {
-    alive_ |= std::uint64_t{1} << (fragment >> 4);
+    alive_ |= std::uint64_t{1} << (fragment >> kSampleBits);
     if (state_.write) {
       stored[at] = code;
     }
@@ -403,7 +432,7 @@ class Small {
       }
       if (task_.draw->keeps_visible && pass) {
         const auto number = static_cast<std::uint32_t>(
-            in_->number[first_ + static_cast<std::size_t>(fragment_[first + i] >> 6)]);
+            in_->number[first_ + static_cast<std::size_t>(fragment_[first + i] >> (kSampleBits + 2))]);
         task_.surface->visible.tile(tile)[sample] =
             task_.draw->is_clear() ? kNothingVisible : task_.draw->first_triangle + number;
       }
@@ -448,12 +477,16 @@ class Small {
     }
   }
 
+  static constexpr int kSamples = Side * Side;
+  static constexpr int kSampleBits = std::countr_zero(static_cast<unsigned>(kSamples));
+  static constexpr int kAnchorShift = std::countr_zero(static_cast<unsigned>(kAnchorSize));
+
   const RasterTask& task_;
   const EarlyZState& state_;
   Counters& counters_;
   Tallies& tallies_;
-  Windows<TileSize> windows_;
-  const WindowBatch& found_;
+  Windows<TileSize, Side> windows_;
+  const WindowBatch<Side>& found_;
   const int fraction_;
   const bool is_float_;
   const bool touches_depth_;
@@ -461,7 +494,7 @@ class Small {
   // Of the batch.
   const SetUpTriangles* in_ = nullptr;
   std::size_t first_ = 0;
-  alignas(64) std::int32_t origin_[4][kWidth];  ///< by quad of the window
+  alignas(64) std::int32_t origin_[4][kWidth];  ///< by anchor
   alignas(64) std::int32_t step_x_[kWidth];
   alignas(64) std::int32_t step_y_[kWidth];
   // Of a float32 surface.
@@ -470,10 +503,10 @@ class Small {
   alignas(64) std::int64_t long_step_y_[kWidth];
   alignas(64) std::int64_t rebias_[kWidth];
 
-  // Bursts are numbered 4 * lane + tile, their samples 16 * burst + bit.
+  // Bursts are numbered 4 * lane + tile, their samples kSamples * burst + bit.
   std::uint64_t burst_bits_ = 0;
   std::uint64_t alive_ = 0;  ///< bursts of which a sample passed
-  alignas(64) std::int32_t fragment_[kSide * kSide * kLanes + kLanes];
+  alignas(64) std::int32_t fragment_[kSamples * kLanes + kLanes];
   std::size_t fragments_ = 0;
 };
 

@@ -22,14 +22,20 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// What is found of small triangles, one a lane. By tile, as `covered`: left, right, and below.
+/// What is found of small triangles, one a lane, in windows of Side x Side samples. By tile, as `covered`:
+/// left, right, and below.
+template <int Side>
 struct WindowBatch {
+  static constexpr int kRows = 4;  ///< in a word of a mask
+  static constexpr std::size_t kWords = Side / kRows;
+
   Vector x;  ///< first pixel of the window
   Vector y;
-  std::uint32_t hit = 0;                      ///< windows of which a sample is covered
-  std::uint32_t columns_first = 0;            ///< windows whose left tiles are a block apart from the right
-  std::array<std::uint32_t, 4> covered{};     ///< and in this tile
-  alignas(64) std::int32_t mask[4][kWidth];   ///< bit 4 y + x
+  std::uint32_t hit = 0;                   ///< windows of which a sample is covered
+  std::uint32_t columns_first = 0;         ///< windows whose left tiles are a block apart from the right
+  std::array<std::uint32_t, 4> covered{};  ///< and in this tile
+  /// In word y / kRows bit Side * (y % kRows) + x.
+  alignas(64) std::int32_t mask[4][kWords][kWidth];
   alignas(64) std::int32_t tile[4][kWidth];   ///< its number in the image
   alignas(64) std::int32_t block[4][kWidth];  ///< of its block
   alignas(64) std::int32_t at[4][kWidth];     ///< in SurfaceTiles
@@ -41,13 +47,13 @@ struct WindowBatch {
   }
 };
 
-/// Tile walker, edge evaluator and quad generator of small triangles, one a lane: each within a window of 4 x
-/// 4 samples that begins at a quad. A window lies on one tile or, where it crosses borders in its middle, on
-/// two or four.
-template <int TileSize>
+/// Tile walker, edge evaluator and quad generator of small triangles, one a lane: each within a window of
+/// Side x Side samples that begins at a quad. A window, no larger than a tile, lies on one, two or four.
+template <int TileSize, int Side>
 class Windows {
  public:
-  static constexpr int kSide = 4;
+  using Batch = WindowBatch<Side>;
+  static_assert(Side <= TileSize);
 
   Windows(const RasterTask& task, Tallies& tallies)
       : task_(task),
@@ -74,7 +80,7 @@ class Windows {
       return hn::Sub(field(last, at), hn::AndNot(set(1), field(first, at)));
     };
     const Vector side = hn::Max(extent(in.x_first, in.x_last), extent(in.y_first, in.y_last));
-    const auto fits = hn::And(hn::Lt(steps, set(kMostStep)), hn::Lt(side, set(kSide)));
+    const auto fits = hn::And(hn::Lt(steps, set(kMostStep)), hn::Lt(side, set(Side)));
     const auto has_vectors = hn::Lt(field(in.kind, at), set(static_cast<std::int32_t>(DepthKind::kUnits)));
     return bits_of(hn::And(hn::And(fits, has_vectors), hn::Not(may_fill_tile(in, at))));
   }
@@ -114,9 +120,15 @@ class Windows {
     return hn::LoadU(Tag(), values.data() + at);
   }
 
-  WindowBatch found;
+  Batch found;
 
  private:
+  static constexpr std::size_t kWords = Batch::kWords;
+  static constexpr int kRows = Batch::kRows;
+  /// Of a word: the first column, and the samples that begin a quad.
+  static constexpr std::int32_t kFirstColumn = Side == 8 ? 0x01010101 : 0x1111;
+  static constexpr std::int32_t kCorners = Side == 8 ? 0x00550055 : 0x0505;
+
   void place() {
     const Vector even = set(~1);
     x_first_ = field(in_->x_first, first_);
@@ -139,16 +151,23 @@ class Windows {
     return narrow(hn::LoadU(wide, from), hn::LoadU(wide, from + (kWidth > 1 ? kWideWidth : 0)));
   }
 
-  /// The samples of the windows that are covered: bit 4 y + x.
+  /// The samples of the windows that are covered.
   void cover() {
+    for (std::size_t word = 0; word < kWords; ++word) {
+      inside_[word] = hn::AndNot(outside(static_cast<int>(word) * kRows), bounds(word));
+    }
+  }
+
+  /// Of the rows from `first` on.
+  HWY_INLINE Vector outside(int first) const {
     const Tag tag;
     Vector outside = hn::Zero(tag);
-    for (int row = kSide - 1; row >= 0; --row) {
+    for (int row = first + kRows - 1; row >= first; --row) {
       Vector at[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        at[k] = hn::Add(e_[k], hn::Add(hn::Mul(b_[k], set(row)), hn::Mul(a_[k], set(kSide - 1))));
+        at[k] = hn::Add(e_[k], hn::Add(hn::Mul(b_[k], set(row)), hn::Mul(a_[k], set(Side - 1))));
       }
-      for (int column = kSide - 1; column >= 0; --column) {
+      for (int column = Side - 1; column >= 0; --column) {
         const Vector any = hn::Or(at[0], hn::Or(at[1], at[2]));
         const Vector sign =
             hn::BitCast(tag, hn::ShiftRight<31>(hn::BitCast(hn::RebindToUnsigned<Tag>(), any)));
@@ -158,15 +177,28 @@ class Windows {
         }
       }
     }
-    // Columns and rows of the bounds.
-    const Vector one = set(1);
-    const auto from = [&](Vector begin) { return hn::Sub(hn::Zero(tag), hn::Shl(one, begin)); };
-    const auto upto = [&](Vector end) { return hn::Sub(hn::Shl(one, end), one); };
-    const Vector columns =
-        hn::And(from(hn::Sub(x_first_, found.x)), upto(hn::Add(hn::Sub(x_last_, found.x), one)));
-    const Vector rows = hn::And(from(hn::ShiftLeft<2>(hn::Sub(y_first_, found.y))),
-                                upto(hn::ShiftLeft<2>(hn::Add(hn::Sub(y_last_, found.y), one))));
-    inside_ = hn::AndNot(outside, hn::And(hn::Mul(columns, set(0x1111)), rows));
+    return outside;
+  }
+
+  /// Bits before `end`.
+  static HWY_INLINE Vector upto(Vector end) { return hn::Sub(hn::Shl(set(1), end), set(1)); }
+
+  /// Samples in a word of a mask, given columns and rows of the window, a bit each.
+  static HWY_INLINE Vector rectangle(Vector columns, Vector rows, std::size_t word) {
+    const Vector here =
+        hn::And(hn::ShiftRightSame(rows, static_cast<int>(word) * kRows), set((1 << kRows) - 1));
+    // Bit i goes to row i, in two steps.
+    const Vector pairs = hn::And(hn::Or(here, hn::ShiftLeft<2 * (Side - 1)>(here)), set(3 | 3 << 2 * Side));
+    const Vector begins = hn::And(hn::Or(pairs, hn::ShiftLeft<Side - 1>(pairs)), set(kFirstColumn));
+    return hn::And(hn::Mul(begins, set((1 << Side) - 1)), hn::Mul(columns, set(kFirstColumn)));
+  }
+
+  /// Samples within the bounds.
+  HWY_INLINE Vector bounds(std::size_t word) const {
+    const auto between = [](Vector first, Vector last, Vector begin) HWY_ATTR {
+      return hn::AndNot(upto(hn::Sub(first, begin)), upto(hn::Add(hn::Sub(last, begin), set(1))));
+    };
+    return rectangle(between(x_first_, x_last_, found.x), between(y_first_, y_last_, found.y), word);
   }
 
   /// The corners of the squares of which (x, y) are the first samples.
@@ -206,6 +238,17 @@ class Windows {
     if (several != 0) {
       decide_blocks(several, blocked);
     }
+    // Columns and rows on the first tile and on the second.
+    const auto split = [&](Vector tile, Vector begin, std::uint32_t lanes, Vector* parts) HWY_ATTR {
+      const Vector border = hn::Sub(hn::ShiftLeft<kTileShift>(hn::Add(tile, set(1))), begin);
+      const Vector all = set((1 << Side) - 1);
+      parts[0] = hn::IfThenElse(mask_of(lanes), upto(hn::Min(border, set(Side))), all);
+      parts[1] = hn::AndNot(parts[0], all);
+    };
+    Vector columns[2];
+    Vector rows[2];
+    split(tile_x, found.x, wide, columns);
+    split(tile_y, found.y, tall, rows);
     found.hit = 0;
     for (unsigned q = 0; q < 4; ++q) {
       std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u) & ~blocked[q];
@@ -223,17 +266,18 @@ class Windows {
       count_tiles(there & rejected, 0, there & ~rejected, accepted, counters_);
       there &= ~rejected;
       jobs_[q] = there;
-      // A half of the window where it lies on two tiles.
-      const auto half = [&](std::uint32_t lanes, std::int32_t first, std::int32_t second, bool is_second) {
-        return hn::IfThenElse(mask_of(lanes), set(is_second ? second : first), set(0xFFFF));
-      };
-      const Vector part =
-          hn::And(half(wide, 0x3333, 0xCCCC, (q & 1) != 0), half(tall, 0x00FF, 0xFF00, (q & 2) != 0));
-      const Vector mask = hn::IfThenElseZero(mask_of(there), hn::And(inside_, part));
-      const std::uint32_t covered = bits_of(hn::Ne(mask, hn::Zero(tag)));
+      Vector masks[kWords];
+      Vector some = hn::Zero(tag);
+      for (std::size_t word = 0; word < kWords; ++word) {
+        const Vector part = rectangle(columns[q & 1], rows[q >> 1], word);
+        masks[word] = hn::IfThenElseZero(mask_of(there), hn::And(inside_[word], part));
+        some = hn::Or(some, masks[word]);
+        hn::Store(masks[word], tag, found.mask[q][word]);
+      }
+      const std::uint32_t covered = bits_of(hn::Ne(some, hn::Zero(tag)));
       counters_.edge_evaluator.tiles_empty += ones(there & ~covered);
-      hn::Store(mask, tag, found.mask[q]);
-      count_quads(q, mask, covered);
+      tallies_.bursts += ones(covered);
+      count_quads(q, masks);
       found.covered[q] = covered;
       found.hit |= covered;
       if (covered != 0 && task_.tiles != nullptr) {
@@ -274,22 +318,25 @@ class Windows {
     }
   }
 
-  void count_quads(unsigned q, Vector mask, std::uint32_t covered) {
-    const Vector any_pairs = hn::Or(mask, hn::ShiftRight<1>(mask));
-    const Vector all_pairs = hn::And(mask, hn::ShiftRight<1>(mask));
-    const Vector corners = set(0x0505);
-    const Vector any = hn::And(hn::Or(any_pairs, hn::ShiftRight<4>(any_pairs)), corners);
-    const Vector full = hn::And(hn::And(all_pairs, hn::ShiftRight<4>(all_pairs)), corners);
-    tallies_.bursts += ones(covered);
+  void count_quads(unsigned q, const Vector* masks) {
     const hn::RebindToUnsigned<Tag> plain;
-    const auto add = [&](std::size_t i, Vector bits) HWY_ATTR {
-      sum_[i] = hn::Add(sum_[i], hn::BitCast(Tag(), hn::PopulationCount(hn::BitCast(plain, bits))));
+    const auto population = [&](Vector bits) HWY_ATTR {
+      return hn::BitCast(Tag(), hn::PopulationCount(hn::BitCast(plain, bits)));
     };
-    add(0, mask);
-    add(1, any);
-    add(2, full);
+    Vector quads = hn::Zero(Tag());
+    for (std::size_t word = 0; word < kWords; ++word) {
+      const Vector mask = masks[word];
+      const Vector any_pairs = hn::Or(mask, hn::ShiftRight<1>(mask));
+      const Vector all_pairs = hn::And(mask, hn::ShiftRight<1>(mask));
+      const Vector any = hn::And(hn::Or(any_pairs, hn::ShiftRight<Side>(any_pairs)), set(kCorners));
+      const Vector full = hn::And(hn::And(all_pairs, hn::ShiftRight<Side>(all_pairs)), set(kCorners));
+      quads = hn::Add(quads, population(any));
+      sum_[0] = hn::Add(sum_[0], population(mask));
+      sum_[2] = hn::Add(sum_[2], population(full));
+    }
+    sum_[1] = hn::Add(sum_[1], quads);
     if (task_.stream != nullptr) {
-      hn::Store(hn::BitCast(Tag(), hn::PopulationCount(hn::BitCast(plain, any))), Tag(), quads_[q]);
+      hn::Store(quads, Tag(), quads_[q]);
     }
   }
 
@@ -351,7 +398,7 @@ class Windows {
   Vector a_[3];
   Vector b_[3];
   Vector e_[3];  ///< at the window's first sample
-  Vector inside_;
+  Vector inside_[kWords];
 
   // Of the walk, for the stream: bits of lanes.
   std::uint32_t several_ = 0;               ///< with more tiles than one, so with blocks
