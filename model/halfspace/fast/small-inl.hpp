@@ -18,6 +18,7 @@
 #include "halfspace/fast/codes-inl.hpp"
 #include "halfspace/fast/raster.hpp"
 #include "halfspace/fast/tallies.hpp"
+#include "halfspace/fast/window_depth-inl.hpp"
 #include "halfspace/fast/windows-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,8 +45,7 @@ class Small {
         tallies_(tallies),
         windows_(task, tallies),
         found_(windows_.found),
-        fraction_(vertex_depth_fraction(task.draw->early_z.format)),
-        is_float_(task.draw->early_z.format == DepthFormat::kFloat32),
+        depth_(task.draw->early_z),
         touches_depth_(touches_depth(task.draw->early_z)) {}
 
   /// Adds what was counted in vectors to the tallies.
@@ -66,7 +66,7 @@ class Small {
     if (state_.func == DepthFunc::kNever && state_.test) {
       alive_ = 0;
     } else if (state_.test) {
-      load_depth();
+      depth_.load(in, first);
       test();
     } else {
       pass_all();
@@ -146,66 +146,8 @@ class Small {
     alive_ = burst_bits_;
   }
 
-  // An anchor is the first pixel of a square of kAnchorSize. A window has samples of one square or, where it
-  // crosses a border, of the next ones: by right and below, as tiles.
-
-  /// Words at the anchors, and their steps.
-  void load_depth() {
-    if (is_float_) {
-      load_long();
-      return;
-    }
-    const Vector kind = Windows<TileSize, Side>::field(in_->kind, first_);
-    const auto is_short = hn::Eq(kind, set(static_cast<std::int32_t>(DepthKind::kShort)));
-    const AnchorWords low = anchor_words(0);
-    const AnchorWords high = kWidth > 1 ? anchor_words(kWideWidth) : low;
-    const auto keep = [&](WideVector first, WideVector second, std::int32_t* to) HWY_ATTR {
-      hn::Store(hn::IfThenElseZero(is_short, narrow(first, second)), Tag(), to);
-    };
-    for (std::size_t i = 0; i < 4; ++i) {
-      keep(low.origin[i], high.origin[i], origin_[i]);
-    }
-    keep(low.step_x, high.step_x, step_x_);
-    keep(low.step_y, high.step_y, step_y_);
-  }
-
-  /// The same of a float32 surface.
-  void load_long() {
-    for (std::uint32_t left = found_.hit; left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const std::size_t at = first_ + lane;
-      if (in_->kind[at] == static_cast<std::int32_t>(DepthKind::kFlat)) {  // its range says all
-        for (std::size_t i = 0; i < 4; ++i) {
-          long_origin_[i * kWidth + lane] = 0;
-        }
-        long_step_x_[lane] = long_step_y_[lane] = rebias_[lane] = 0;
-        continue;
-      }
-      const LongWords words = long_words(plane_of(*in_, at), state_.sub_pixel_bits);
-      constexpr auto kSquare = static_cast<std::uint32_t>(kAnchorSize);
-      const std::uint32_t x = static_cast<std::uint32_t>(in_->x_first[at]) & ~(kSquare - 1);
-      const std::uint32_t y = static_cast<std::uint32_t>(in_->y_first[at]) & ~(kSquare - 1);
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        long_origin_[i * kWidth + lane] =
-            static_cast<std::int64_t>(words.at(x + kSquare * (i & 1), y + kSquare * (i >> 1)));
-      }
-      long_step_x_[lane] = static_cast<std::int64_t>(words.step_x);
-      long_step_y_[lane] = static_cast<std::int64_t>(words.step_y);
-      rebias_[lane] = float_rebias(in_->exponent[at]);
-    }
-  }
-
-  /// Fragments in the lanes of a vector: the lane of the triangle's window, and where they are.
-  struct Fragments {
-    Vector lane;
-    Vector x;
-    Vector y;
-    hn::Mask<Tag> right;  ///< beyond the window's first anchors
-    hn::Mask<Tag> below;
-  };
-
   /// `fragment`: the samples' numbers.
-  HWY_INLINE Fragments located(Vector fragment) const {
+  HWY_INLINE WindowDepth::Fragments located(Vector fragment) const {
     const Tag tag;
     const Vector lane = hn::ShiftRight<kSampleBits + 2>(fragment);
     const auto of_lane = hn::IndicesFromVec(tag, lane);
@@ -217,96 +159,6 @@ class Small {
       return hn::Ne(hn::And(hn::Xor(at, first), set(kAnchorSize)), hn::Zero(tag));
     };
     return {.lane = lane, .x = x, .y = y, .right = crosses(x, first_x), .below = crosses(y, first_y)};
-  }
-
-  /// Codes on a float32 surface, not yet within the ranges of their triangles.
-  HWY_INLINE Vector long_codes(const Fragments& at) const {
-    const Tag tag;
-    const Vector in_square = set(kAnchorSize - 1);
-    const Vector anchor = hn::Add(hn::IfThenElseZero(at.right, set(1)), hn::IfThenElseZero(at.below, set(2)));
-    alignas(64) std::int32_t lane[kWidth];
-    alignas(64) std::int32_t origin[kWidth];
-    alignas(64) std::int32_t x[kWidth];
-    alignas(64) std::int32_t y[kWidth];
-    hn::Store(at.lane, tag, lane);
-    hn::Store(hn::Add(hn::ShiftLeft<std::countr_zero(static_cast<unsigned>(kWidth))>(anchor), at.lane), tag,
-              origin);
-    hn::Store(hn::And(at.x, in_square), tag, x);
-    hn::Store(hn::And(at.y, in_square), tag, y);
-    const auto codes = [&](int i) HWY_ATTR {
-      const WideTag wide;
-      const hn::Rebind<std::int32_t, WideTag> half;
-      const auto all = [&](const std::int32_t* from)
-                           HWY_ATTR { return hn::PromoteTo(wide, hn::LoadU(half, from + i)); };
-      const auto of_lane = [&](const std::int64_t* from)
-                               HWY_ATTR { return hn::GatherIndex(wide, from, all(lane)); };
-      const WideVector steps =
-          hn::Add(hn::Mul(all(x), of_lane(long_step_x_)), hn::Mul(all(y), of_lane(long_step_y_)));
-      return float_codes(hn::Add(hn::GatherIndex(wide, long_origin_, all(origin)), steps), of_lane(rebias_));
-    };
-    const WideVector low = codes(0);
-    return narrow(low, kWidth > 1 ? codes(kWideWidth) : low);
-  }
-
-  /// Codes on a unorm surface, not yet within the ranges of their triangles.
-  HWY_INLINE Vector short_codes(const Fragments& at) const {
-    const Tag tag;
-    const auto lane = hn::IndicesFromVec(tag, at.lane);
-    const auto of_lane = [&](const std::int32_t* values)
-                             HWY_ATTR { return hn::TableLookupLanes(hn::Load(tag, values), lane); };
-    const Vector origin =
-        hn::IfThenElse(at.below, hn::IfThenElse(at.right, of_lane(origin_[3]), of_lane(origin_[2])),
-                       hn::IfThenElse(at.right, of_lane(origin_[1]), of_lane(origin_[0])));
-    const Vector in_square = set(kAnchorSize - 1);
-    const Vector steps = hn::Add(hn::Mul(hn::And(at.x, in_square), of_lane(step_x_)),
-                                 hn::Mul(hn::And(at.y, in_square), of_lane(step_y_)));
-    return hn::ShiftRightSame(hn::Add(origin, steps), fraction_);
-  }
-
-  /// Words modulo 2^64, of which the low half counts.
-  struct AnchorWords {
-    WideVector origin[4];
-    WideVector step_x;
-    WideVector step_y;
-  };
-
-  /// Of kWideWidth windows. tile_plane (units/depth_plane.hpp), which ShortWords does for a tile.
-  HWY_INLINE AnchorWords anchor_words(int first) const {
-    const WideTag wide;
-    const hn::Rebind<std::int32_t, WideTag> half_tag;
-    const int s = state_.sub_pixel_bits;
-    const std::size_t at = first_ + static_cast<std::size_t>(first);
-    const auto whole = [&](const SetUpTriangles::Field<std::int32_t>& values)
-                           HWY_ATTR { return hn::PromoteTo(wide, hn::LoadU(half_tag, values.data() + at)); };
-    const auto wide_field = [&](const auto& values) HWY_ATTR {
-      return hn::LoadU(wide, reinterpret_cast<const std::int64_t*>(values.data()) + at);
-    };
-    const WideVector dx = wide_field(in_->dx);
-    const WideVector dy = wide_field(in_->dy);
-    const WideVector half_pixel = hn::Set(wide, std::int64_t{1} << (s - 1));
-    const WideVector half = hn::Set(wide, static_cast<std::int64_t>(ShortWords::kHalf));
-    const WideVector square = hn::Set(wide, ~std::int64_t{kAnchorSize - 1});
-    // From the vertex to the first anchor.
-    const auto from_vertex = [&](const SetUpTriangles::Field<std::int32_t>& pixel,
-                                 const SetUpTriangles::Field<std::int32_t>& vertex) HWY_ATTR {
-      return hn::Add(hn::ShiftLeftSame(hn::And(whole(pixel), square), s), hn::Sub(half_pixel, whole(vertex)));
-    };
-    const WideVector word = hn::Add(hn::Add(hn::ShiftLeft<kGradientFraction>(wide_field(in_->z)), half),
-                                    hn::Add(hn::Mul(dx, from_vertex(in_->x_first, in_->x)),
-                                            hn::Mul(dy, from_vertex(in_->y_first, in_->y))));
-    const auto step = [&](WideVector gradient) HWY_ATTR {
-      return hn::ShiftRight<kGradientFraction>(hn::Add(hn::ShiftLeftSame(gradient, s), half));
-    };
-    const auto next = [&](WideVector gradient)
-                          HWY_ATTR { return hn::ShiftLeftSame(gradient, s + kAnchorShift); };
-    const WideVector added = wide_field(in_->added);
-    const auto origin = [&](WideVector anchor)
-                            HWY_ATTR { return hn::Add(hn::ShiftRight<kGradientFraction>(anchor), added); };
-    const WideVector below = hn::Add(word, next(dy));
-    return {.origin = {origin(word), origin(hn::Add(word, next(dx))), origin(below),
-                       origin(hn::Add(below, next(dx)))},
-            .step_x = step(dx),
-            .step_y = step(dy)};
   }
 
   /// Tests the fragments of all bursts, kWidth at a time.
@@ -339,12 +191,12 @@ class Small {
     const Vector inactive = set(0);
     const auto active = hn::FirstN(tag, count);
     const Vector fragment = hn::IfThenElse(active, hn::LoadU(tag, fragment_ + first), inactive);
-    const Fragments at_samples = located(fragment);
+    const WindowDepth::Fragments at_samples = located(fragment);
     const auto lane = hn::IndicesFromVec(tag, at_samples.lane);
     const auto lane_field = [&](const SetUpTriangles::Field<std::int32_t>& values) HWY_ATTR {
       return hn::TableLookupLanes(Windows<TileSize, Side>::field(values, first_), lane);
     };
-    const Vector any = is_float_ ? long_codes(at_samples) : short_codes(at_samples);
+    const Vector any = depth_.codes(at_samples);
     const Vector code = hn::Min(hn::Max(any, lane_field(in_->low)), lane_field(in_->high));
     // Where it is stored.
     const Vector x = at_samples.x;
@@ -479,7 +331,6 @@ class Small {
 
   static constexpr int kSamples = Side * Side;
   static constexpr int kSampleBits = std::countr_zero(static_cast<unsigned>(kSamples));
-  static constexpr int kAnchorShift = std::countr_zero(static_cast<unsigned>(kAnchorSize));
 
   const RasterTask& task_;
   const EarlyZState& state_;
@@ -487,22 +338,12 @@ class Small {
   Tallies& tallies_;
   Windows<TileSize, Side> windows_;
   const WindowBatch<Side>& found_;
-  const int fraction_;
-  const bool is_float_;
+  WindowDepth depth_;
   const bool touches_depth_;
 
   // Of the batch.
   const SetUpTriangles* in_ = nullptr;
   std::size_t first_ = 0;
-  alignas(64) std::int32_t origin_[4][kWidth];  ///< by anchor
-  alignas(64) std::int32_t step_x_[kWidth];
-  alignas(64) std::int32_t step_y_[kWidth];
-  // Of a float32 surface.
-  alignas(64) std::int64_t long_origin_[4 * kWidth];
-  alignas(64) std::int64_t long_step_x_[kWidth];
-  alignas(64) std::int64_t long_step_y_[kWidth];
-  alignas(64) std::int64_t rebias_[kWidth];
-
   // Bursts are numbered 4 * lane + tile, their samples kSamples * burst + bit.
   std::uint64_t burst_bits_ = 0;
   std::uint64_t alive_ = 0;  ///< bursts of which a sample passed
