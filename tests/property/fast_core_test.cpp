@@ -148,7 +148,9 @@ void compare_cores(std::uint64_t runs, bool with_time) {
     CAPTURE(seed(), run, hwy::TargetName(target));
     const Config config = random_config(random);
     const Frame frame = hard_frame(random);
-    const Watch watch{.keep_visible = random.between(0, 1) == 0, .count_pixels = random.between(0, 3) != 0};
+    const Watch watch{.keep_visible = random.between(0, 1) == 0,
+                      .count_pixels = random.between(0, 3) != 0,
+                      .threads = pick(random, {1, 1, 2, 3, 8})};
     if (!fast::gap(config, watch, nullptr).empty()) {
       continue;
     }
@@ -201,7 +203,7 @@ TEST_CASE("fast core: windows that a scissor cuts out, in every size of tile and
 TEST_CASE("fast core: memory of the frame before leaves no trace", "[property]") {
   Random random(seed() + 1);
   const Config config;
-  const Watch watch{.keep_visible = true};
+  const Watch watch{.keep_visible = true, .threads = 2};
   fast::FastCore core(config, watch);
   for (std::uint64_t run = 0; run < frames() / 20; ++run) {
     CAPTURE(seed(), run);

@@ -44,8 +44,8 @@ inline void access_lines(BlockCache& cache, const CachePlace& at, int part, std:
                          std::uint32_t written, EarlyZCounters& counters, StreamWriter* stream) {
   const Tag tag;
   const std::size_t first = at.entry + static_cast<std::size_t>(part) * cache.of_part;
-  std::int32_t* const tags = cache.tag.data() + first;
-  auto* const slots = reinterpret_cast<std::int32_t*>(cache.slot.data() + first);
+  std::int32_t* const tags = cache.tag.get() + first;
+  auto* const slots = reinterpret_cast<std::int32_t*>(cache.slot.get() + first);
   const Vector block = set(at.block);
   const std::uint32_t recent =
       touched & group_bits([&](int i) { return bits_of(hn::Eq(hn::LoadU(tag, tags + i), block)); });

@@ -16,6 +16,10 @@ int y_set_bits(const ZCacheShape& shape) { return std::countr_zero(static_cast<u
 
 bool BlockCache::takes(const ZCacheShape& shape, int block_shift) { return y_set_bits(shape) >= block_shift; }
 
+std::uint32_t BlockCache::columns(const ZCacheShape& shape, int block_shift) {
+  return 1u << (x_set_bits(shape) - block_shift);
+}
+
 BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<BlockSurface> all)
     : ways(shape.ways), parts(shape.parts), surfaces(std::move(all)) {
   x_bits = x_set_bits(shape) - block_shift;
@@ -26,8 +30,10 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
   entries = groups * kLanes;
   of_part = entries << (x_bits + y_bits);
   of_way = of_part * static_cast<std::size_t>(parts);
-  tag.assign(of_way * static_cast<std::size_t>(ways), kFree);
-  slot.resize(tag.size());
+  size = of_way * static_cast<std::size_t>(ways);
+  tag = unset_array<std::int32_t>(size);
+  std::fill_n(tag.get(), size, kFree);
+  slot = unset_array<std::uint32_t>(size);
   number_slots(shape, block_shift);
   cleared.assign((surfaces.back().first * groups) * static_cast<std::size_t>(parts), 0);
 }
@@ -35,7 +41,7 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
 void BlockCache::number_slots(const ZCacheShape& shape, int block_shift) {
   const std::size_t side = std::size_t{1} << block_shift;
   const int x_set = x_bits + block_shift;
-  for (std::size_t i = 0; i < tag.size(); ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
     const std::size_t way = i / of_way;
     const std::size_t part = i % of_way / of_part;
     const std::size_t block = i % of_part / entries;
@@ -56,7 +62,7 @@ void BlockCache::clear(const BlockSurface& surface) {
     // What stays moves to the front; what is free follows, the one used longest ago last.
     free.clear();
     std::size_t kept = set;
-    for (std::size_t from = set; from < tag.size(); from += of_way) {
+    for (std::size_t from = set; from < size; from += of_way) {
       if (tag[from] == kFree || (tag[from] >= first && tag[from] < end)) {
         free.push_back(slot[from] & ~kDirty);
         continue;
@@ -78,7 +84,7 @@ void BlockCache::clear(const BlockSurface& surface) {
 
 std::vector<ZFlush> BlockCache::flush() const {
   std::vector<ZFlush> dirty;
-  for (std::size_t i = 0; i < tag.size(); ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
     if ((slot[i] & kDirty) != 0) {
       dirty.push_back({.slot = slot[i] & ~kDirty, .bytes = line_bytes(static_cast<std::uint32_t>(tag[i]))});
     }

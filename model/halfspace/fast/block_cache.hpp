@@ -13,6 +13,7 @@
 
 #include "halfspace/machine/stream_writer.hpp"
 #include "halfspace/units/counters.hpp"
+#include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/z_cache.hpp"
 
 namespace halfspace::fast {
@@ -44,6 +45,8 @@ struct BlockCache {
 
   /// Whether the cache has a set for each tile of a block.
   static bool takes(const ZCacheShape& shape, int block_shift);
+  /// Columns of blocks that have sets of their own; the next ones share them.
+  static std::uint32_t columns(const ZCacheShape& shape, int block_shift);
 
   /// Of the sets of a block's tiles, in entries; `block_x` and `block_y` are in blocks.
   [[nodiscard]] std::size_t sets(std::uint32_t block_x, std::uint32_t block_y) const {
@@ -112,8 +115,9 @@ struct BlockCache {
   std::size_t of_part = 0;  ///< entries of all sets
   std::size_t of_way = 0;   ///< entries of all parts
   std::vector<BlockSurface> surfaces;
-  std::vector<std::int32_t> tag;       ///< by way, the most recently used first; then by part and set
-  std::vector<std::uint32_t> slot;     ///< alike: where in the cache the line lies, and whether it is dirty
+  std::size_t size = 0;                ///< entries of all ways
+  LazyArray<std::int32_t> tag;         ///< by way, the most recently used first; then by part and set
+  LazyArray<std::uint32_t> slot;       ///< alike: where in the cache the line lies, and whether it is dirty
   std::vector<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
 
  private:
@@ -126,8 +130,8 @@ inline void access_line(BlockCache& cache, const CachePlace& at, int part, int l
                         EarlyZCounters& counters, StreamWriter* stream) {
   const std::size_t first =
       at.entry + static_cast<std::size_t>(part) * cache.of_part + static_cast<std::size_t>(lane);
-  std::int32_t* const tags = cache.tag.data() + first;
-  std::uint32_t* const slots = cache.slot.data() + first;
+  std::int32_t* const tags = cache.tag.get() + first;
+  std::uint32_t* const slots = cache.slot.get() + first;
   const auto block = static_cast<std::int32_t>(at.block);
   const std::uint32_t dirty = written ? BlockCache::kDirty : 0;
   if (tags[0] == block) {

@@ -56,7 +56,7 @@ template <int TileSize>
 HWY_NOINLINE void make_codes(const Plane& plane, const SurfaceTiles& tiles, DepthFormat format,
                              int sub_pixel_bits, int tile_x, int tile_y, std::uint32_t* codes) {
   if (plane.kind == DepthKind::kUnits) {
-    codes_by_units<TileSize>(tiles.equations[plane.equation], format, sub_pixel_bits, tile_x, tile_y, codes);
+    codes_by_units<TileSize>(tiles.equation_of(plane), format, sub_pixel_bits, tile_x, tile_y, codes);
     return;
   }
   Triangle t;

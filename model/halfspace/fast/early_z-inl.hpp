@@ -36,7 +36,7 @@ class EarlyZ {
       : task_(task),
         draw_(*task.draw),
         state_(task.draw->early_z),
-        counters_(task.draw->counters),
+        counters_(*task.counters),
         tallies_(tallies),
         tiles_(task.tiles),
         block_tiles_(task.walker.block_size / TileSize),
@@ -183,12 +183,8 @@ class EarlyZ {
   /// The triangle's number among the planes of the surface.
   std::uint32_t plane_number(Triangle& t) {
     if (t.plane_number == kResolved) {
-      t.plane_number = static_cast<std::uint32_t>(tiles_->planes.size());
-      if (t.kind == DepthKind::kUnits) {
-        t.plane.equation = static_cast<std::uint32_t>(tiles_->equations.size());
-        tiles_->equations.push_back(t.whole->depth);
-      }
-      tiles_->planes.push_back(t.plane);
+      const DepthEquation* const equation = t.kind == DepthKind::kUnits ? &t.whole->depth : nullptr;
+      t.plane_number = tiles_->add_plane(task_.columns.own, t.plane, equation);
     }
     return t.plane_number;
   }
@@ -200,7 +196,7 @@ class EarlyZ {
     const int y = tile_y(lane);
     std::uint32_t* const stored = task_.surface->codes.tile(x, y);
     if (tiles_->plane[at] != kResolved) [[unlikely]] {
-      make_codes<TileSize>(tiles_->planes[tiles_->plane[at]], *tiles_, state_.format, state_.sub_pixel_bits,
+      make_codes<TileSize>(tiles_->plane_of(tiles_->plane[at]), *tiles_, state_.format, state_.sub_pixel_bits,
                            x, y, stored);
       tiles_->plane[at] = kResolved;
     }
@@ -334,7 +330,7 @@ class EarlyZ {
       const ZMisses misses =
           task_.tile_cache->access(task_.place, static_cast<std::uint32_t>(tile_x(lane)),
                                    static_cast<std::uint32_t>(tile_y(lane)), parts, changed);
-      passage::count_z_cache(draw_, parts, misses);
+      passage::count_z_cache(counters_.early_z, parts, misses);
       if (task_.stream != nullptr) {
         task_.stream->accessed(misses.parts());
       }
@@ -375,7 +371,7 @@ class EarlyZ {
   }
 
   const RasterTask& task_;
-  DrawContext& draw_;
+  const DrawContext& draw_;
   const EarlyZState& state_;
   Counters& counters_;
   Tallies& tallies_;

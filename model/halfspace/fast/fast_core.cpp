@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/crew.hpp"
 #include "halfspace/fast/front_end_task.hpp"
 #include "halfspace/fast/raster.hpp"
 #include "halfspace/fast/surface_tiles.hpp"
@@ -33,7 +34,17 @@ class FastCore::Runner {
         block_tiles_(config.tile_walker.block_size / config.tile_walker.tile_size),
         watch_(watch),
         reader_(reader),
-        walker_(walker_config(config)) {}
+        walker_(walker_config(config)) {
+    const std::uint32_t threads = useful_threads();
+    if (threads > 1) {
+      crew_.emplace(tile_size_, threads);
+      set_up_ = &crew_->triangles();
+    } else {
+      alone_ = std::make_unique<SetUpTriangles>();
+      set_up_ = alone_.get();
+    }
+    thread_counters_.resize(threads - 1);
+  }
 
   void run(const Frame& frame) {
     begin(frame);
@@ -58,6 +69,8 @@ class FastCore::Runner {
         stream_->end_segment(draw->counters.setup.triangles);
       }
     }
+    settle();
+    add_thread_counters();
     flush_cache();
     collect_draws(draws_, result_);
   }
@@ -66,7 +79,7 @@ class FastCore::Runner {
 
   FrameResult take() {
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
-      resolve(tile_size_, walker_.sub_pixel_bits, result_.surfaces[i], tiles_[i]);
+      resolve(tile_size_, walker_.sub_pixel_bits, {}, result_.surfaces[i], tiles_[i]);
     }
     tiles_.clear();
     shape_.clear();
@@ -74,11 +87,26 @@ class FastCore::Runner {
   }
 
  private:
+  /// Columns of blocks have nothing in common only where they have sets of the z cache of their own. The
+  /// packets of a stream are in order, so one thread writes them.
+  [[nodiscard]] std::uint32_t useful_threads() const {
+    const ZCacheShape shape = z_cache_shape(config_);
+    const int block_shift = std::countr_zero(static_cast<unsigned>(block_tiles_));
+    if (reader_ != nullptr || !BlockCache::takes(shape, block_shift)) {
+      return 1;
+    }
+    return std::bit_floor(std::min({static_cast<std::uint32_t>(watch_.threads), Crew::kMostThreads,
+                                    BlockCache::columns(shape, block_shift)}));
+  }
+
   /// Surfaces as they are before the first command, in the memory of the last run where they fit.
   void begin(const Frame& frame) {
     frame_ = &frame;
     std::vector<Surface> surfaces = std::move(result_.surfaces);
     draws_.clear();
+    for (std::deque<Counters>& each : thread_counters_) {
+      each.clear();
+    }
     result_ = {};
     result_.core = Core::kFast;
     std::vector<SurfaceShape> shape = surface_shapes(frame);
@@ -92,7 +120,8 @@ class FastCore::Runner {
       tiles_.clear();
       result_.surfaces = make_surfaces(frame, tile_size_, watch_);
       for (const Surface& surface : result_.surfaces) {
-        tiles_.emplace_back(surface.codes, block_tiles_, largest_code(surface.format));
+        tiles_.emplace_back(surface.codes, block_tiles_, largest_code(surface.format),
+                            static_cast<std::uint32_t>(thread_counters_.size()) + 1);
       }
       shape_ = std::move(shape);
     }
@@ -138,8 +167,11 @@ class FastCore::Runner {
   }
 
   void begin(DrawContext& draw) {
+    draw_ = &draw;
     const bool has_depth = draw.surface != kNoSurface;
     task_ = {.draw = &draw,
+             .counters = &draw.counters,
+             .columns = {},
              .walker = walker_,
              .tiles = has_depth ? &tiles_[draw.surface] : nullptr,
              .surface = has_depth ? &result_.surfaces[draw.surface] : nullptr,
@@ -150,6 +182,10 @@ class FastCore::Runner {
              .place = has_depth ? places_[draw.surface] : ZSurface{},
              .z_parts = config_.z_cache.parts,
              .stream = stream_ ? &*stream_ : nullptr};
+    counters_ = {&draw.counters};
+    for (std::deque<Counters>& each : thread_counters_) {
+      counters_.push_back(&each.emplace_back());
+    }
     if (stream_) {
       using Kind = StreamSegment::Kind;
       stream_->begin_segment(draw.is_clear() ? Kind::kDrawnClear : Kind::kDraw, draw.surface,
@@ -177,6 +213,7 @@ class FastCore::Runner {
   }
 
   void clear(const SourceItem& item) {
+    settle();
     clear_surface(result_.surfaces[item.surface], item.code);
     tiles_[item.surface].clear(item.code);
     if (by_blocks_) {
@@ -191,7 +228,7 @@ class FastCore::Runner {
   }
 
   void draw_raw(const RawTriangles& raw, const Command& command) {
-    DrawContext& draw = *task_.draw;
+    DrawContext& draw = *draw_;
     const bool vectors = takes_vectors(draw, command);
     const FrontEndTask task = vectors ? front_end_task(*raw.front_end, command) : FrontEndTask{};
     constexpr std::uint32_t kOneByOne = 8;
@@ -265,7 +302,7 @@ class FastCore::Runner {
     const bool has_depth = task_.tiles != nullptr && task_.draw->early_z.test;
     for (const ScreenTriangle& in : triangles) {
       SetupTriangle out;
-      if (!passage::setup(in, *task_.draw, out)) {
+      if (!passage::setup(in, *draw_, out)) {
         continue;
       }
       if (raster_takes(out, walker_)) {
@@ -276,17 +313,38 @@ class FastCore::Runner {
         continue;
       }
       flush();
+      settle();
       tile_size_ == 4 ? draw_by_units<4>(out) : draw_by_units<8>(out);
     }
   }
 
   /// Draws what is set up.
   void flush() {
-    raster(tile_size_, task_, *set_up_);
+    if (set_up_->count == 0) {
+      return;
+    }
+    if (crew_) {
+      crew_->draw(task_, counters_);
+      set_up_ = &crew_->triangles();
+      return;
+    }
+    draw_columns(tile_size_, task_, *set_up_);
     set_up_->clear();
-    if (task_.tiles != nullptr && task_.tiles->planes.size() > kMostPlanes) {
-      resolve(tile_size_, walker_.sub_pixel_bits, *task_.surface, *task_.tiles);
-      task_.tiles->forget_planes();
+  }
+
+  /// Before somebody else than the crew looks at what it draws.
+  void settle() {
+    if (crew_) {
+      crew_->wait();
+    }
+  }
+
+  /// Of all threads but the first, to those of the draws.
+  void add_thread_counters() {
+    for (const std::deque<Counters>& each : thread_counters_) {
+      for (std::size_t i = 0; i < each.size(); ++i) {
+        draws_[i].counters += each[i];
+      }
     }
   }
 
@@ -294,7 +352,7 @@ class FastCore::Runner {
   template <int TileSize>
   void draw_by_units(const SetupTriangle& triangle) {
     passage::TileWalker walker(walker_);
-    DrawContext& draw = *task_.draw;
+    DrawContext& draw = *draw_;
     if (stream_) {
       stream_->drawn(static_cast<std::uint32_t>(draw.counters.setup.triangles - 1));
     }
@@ -314,7 +372,7 @@ class FastCore::Runner {
                                static_cast<std::uint32_t>(job.tile_y >> task_.tiles->block_shift)));
         at = task_.tiles->index(job.tile_x, job.tile_y);
         if (task_.tiles->plane[at] != kResolved) {
-          resolve(tile_size_, walker_.sub_pixel_bits, *task_.surface, *task_.tiles);
+          resolve(tile_size_, walker_.sub_pixel_bits, {}, *task_.surface, *task_.tiles);
         }
       }
       TileCodes<TileSize> codes;
@@ -354,7 +412,7 @@ class FastCore::Runner {
   void look_up(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written) {
     if (!by_blocks_) {
       const ZMisses misses = tile_cache_.access(task_.place, tile_x, tile_y, touched, written);
-      passage::count_z_cache(*task_.draw, touched, misses);
+      passage::count_z_cache(task_.counters->early_z, touched, misses);
       if (stream_) {
         stream_->accessed(misses.parts());
       }
@@ -367,14 +425,11 @@ class FastCore::Runner {
     const auto in_block = static_cast<std::uint32_t>(
         tiles.index(static_cast<int>(tile_x), static_cast<int>(tile_y)) - block * tiles.entries);
     const CachePlace place = cache_.place(task_.cached, block, block_x, block_y, in_block / kLanes);
-    EarlyZCounters& counters = task_.draw->counters.early_z;
+    EarlyZCounters& counters = task_.counters->early_z;
     ++counters.z_bursts;
     access_parts(cache_, place, static_cast<int>(in_block % kLanes), touched, written, counters,
                  task_.stream);
   }
-
-  /// Of a surface; with more, its tiles are resolved.
-  static constexpr std::size_t kMostPlanes = 1 << 16;
 
   const Frame* frame_ = nullptr;
   Config config_;
@@ -388,14 +443,19 @@ class FastCore::Runner {
   std::vector<SurfaceShape> shape_;  ///< that result_ has
   std::vector<SurfaceTiles> tiles_;
   std::deque<DrawContext> draws_;
-  bool by_blocks_ = false;  ///< the z cache is cache_, else tile_cache_
+  DrawContext* draw_ = nullptr;  ///< at work
+  bool by_blocks_ = false;       ///< the z cache is cache_, else tile_cache_
   BlockCache cache_;
   ZCache tile_cache_;
   std::vector<ZSurface> places_;
   RasterTask task_;
   std::vector<ScreenTriangle> batch_;
   std::unique_ptr<VertexChunk> chunk_ = std::make_unique<VertexChunk>();
-  std::unique_ptr<SetUpTriangles> set_up_ = std::make_unique<SetUpTriangles>();
+  std::vector<std::deque<Counters>> thread_counters_;  ///< of each thread but the first, by draw
+  std::vector<Counters*> counters_;                    ///< of the draw at work, by thread
+  SetUpTriangles* set_up_ = nullptr;                   ///< what is not drawn yet
+  std::unique_ptr<SetUpTriangles> alone_;              ///< where there is no crew
+  std::optional<Crew> crew_;                           ///< ends before what it works on
 };
 
 FastCore::FastCore(const Config& config, const Watch& watch, StreamReader* reader)

@@ -59,7 +59,7 @@ class Raster {
     test(false);
     small_.tally();
     middle_.tally();
-    tallies_.add_to(*task_.draw, Walk<TileSize>::kSamples / 4);
+    tallies_.add_to(*task_.counters, task_.draw->early_z, Walk<TileSize>::kSamples / 4);
   }
 
  private:
@@ -115,10 +115,10 @@ inline void raster_8(const RasterTask& task, const SetUpTriangles& triangles) {
 }
 
 template <int TileSize>
-void resolve_tiles(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
+void resolve_tiles(int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
   const int side = 1 << tiles.block_shift;
   for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
-    if (tiles.opened[block] != tiles.epoch) {
+    if (tiles.opened[block] != tiles.epoch || !columns.has(block % tiles.blocks_x)) {
       continue;
     }
     const int first_x = static_cast<int>(block % tiles.blocks_x) * side;
@@ -128,7 +128,7 @@ void resolve_tiles(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
       if (plane != kResolved) {
         const int x = first_x + i % side;
         const int y = first_y + i / side;
-        make_codes<TileSize>(tiles.planes[plane], tiles, surface.format, sub_pixel_bits, x, y,
+        make_codes<TileSize>(tiles.plane_of(plane), tiles, surface.format, sub_pixel_bits, x, y,
                              surface.codes.tile(x, y));
         plane = kResolved;
       }
@@ -136,11 +136,11 @@ void resolve_tiles(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
   }
 }
 
-inline void resolve_4(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
-  resolve_tiles<4>(sub_pixel_bits, surface, tiles);
+inline void resolve_4(int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
+  resolve_tiles<4>(sub_pixel_bits, columns, surface, tiles);
 }
-inline void resolve_8(int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
-  resolve_tiles<8>(sub_pixel_bits, surface, tiles);
+inline void resolve_8(int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
+  resolve_tiles<8>(sub_pixel_bits, columns, surface, tiles);
 }
 
 }  // namespace

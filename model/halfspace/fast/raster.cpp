@@ -6,6 +6,7 @@
 
 #include "halfspace/fast/raster-inl.hpp"
 #include "halfspace/fast/set_up-inl.hpp"
+#include "halfspace/fast/share-inl.hpp"
 
 #if HWY_ONCE
 #include <algorithm>
@@ -18,6 +19,7 @@ HWY_EXPORT(set_up_triangles);
 HWY_EXPORT(raster_8);
 HWY_EXPORT(resolve_4);
 HWY_EXPORT(resolve_8);
+HWY_EXPORT(take_share_of);
 
 bool raster_takes(const SetupTriangle& triangle, const WalkerConfig& walker) {
   // A value saturated at a block's first sample, and all steps across the block, together fit 31 bits.
@@ -43,11 +45,15 @@ std::uint32_t set_up(const FrontEndTask& task, std::uint32_t first, std::uint32_
   return HWY_DYNAMIC_DISPATCH(set_up_triangles)(task, first, end, chunk, out, front_end, setup);
 }
 
-void resolve(int tile_size, int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles) {
+void take_share(const SetUpTriangles& in, Columns columns, int block_size, SetUpTriangles& out) {
+  HWY_DYNAMIC_DISPATCH(take_share_of)(in, columns, block_size, out);
+}
+
+void resolve(int tile_size, int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
   if (tile_size == 4) {
-    HWY_DYNAMIC_DISPATCH(resolve_4)(sub_pixel_bits, surface, tiles);
+    HWY_DYNAMIC_DISPATCH(resolve_4)(sub_pixel_bits, columns, surface, tiles);
   } else {
-    HWY_DYNAMIC_DISPATCH(resolve_8)(sub_pixel_bits, surface, tiles);
+    HWY_DYNAMIC_DISPATCH(resolve_8)(sub_pixel_bits, columns, surface, tiles);
   }
 }
 

@@ -17,9 +17,25 @@
 
 namespace halfspace::fast {
 
+/// Columns of blocks: every so many-th, a power of two up to 8.
+struct Columns {
+  std::uint32_t mask = 0;  ///< of a column's number
+  std::uint32_t own = 0;   ///< what is under it
+
+  [[nodiscard]] bool all() const { return mask == 0; }
+  [[nodiscard]] bool has(std::uint32_t x) const { return (x & mask) == own; }
+  /// Of the 8 columns from `x` on those that belong to them, a bit each.
+  [[nodiscard]] std::uint32_t lanes(std::uint32_t x) const {
+    constexpr std::uint32_t kEvery[] = {0xFF, 0x55, 0, 0x11, 0, 0, 0, 0x01};
+    return kEvery[mask] << ((own - x) & mask) & 0xFF;
+  }
+};
+
 /// A draw, and what its triangles work on. `tiles` and `surface` are null where the target has no depth.
 struct RasterTask {
-  DrawContext* draw = nullptr;
+  const DrawContext* draw = nullptr;
+  Counters* counters = nullptr;  ///< those of the draw, or a thread's share of them
+  Columns columns;               ///< that are drawn
   WalkerConfig walker;
   SurfaceTiles* tiles = nullptr;
   Surface* surface = nullptr;
@@ -38,8 +54,11 @@ bool raster_takes(const SetupTriangle& triangle, const WalkerConfig& walker);
 /// Draws triangles, all of which it takes. `tile_size` is 4 or 8. A full part of the stream is given away.
 void raster(int tile_size, const RasterTask& task, const SetUpTriangles& triangles);
 
-/// Makes the codes of all tiles of a surface that are planes.
-void resolve(int tile_size, int sub_pixel_bits, Surface& surface, SurfaceTiles& tiles);
+/// Takes the triangles that reach blocks of `columns`, in order. They need those of `in` still.
+void take_share(const SetUpTriangles& in, Columns columns, int block_size, SetUpTriangles& out);
+
+/// Makes the codes of all tiles in `columns` of a surface that are planes.
+void resolve(int tile_size, int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles);
 
 /// Codes of a tile by the units, from an equation of the interpolator `plane`. `codes`: TileSize^2, in row
 /// order.

@@ -69,6 +69,7 @@ void SetUpTriangles::append(const SetupTriangle& in, const DrawContext& draw, in
   if (how == DepthKind::kUnits) {
     full[i] = static_cast<std::int32_t>(whole.size());
     whole.push_back(in);
+    first_whole = whole.data();
   }
   const bool is_float = draw.early_z.format == DepthFormat::kFloat32;
   added[i] = eq.offset + (is_float ? 0 : std::int64_t{1} << (vertex_depth_fraction(draw.early_z.format) - 1));

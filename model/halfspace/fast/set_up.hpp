@@ -24,7 +24,7 @@ enum class DepthKind : std::uint8_t {
 /// The depth of a triangle, as the fast core makes codes of it.
 struct Plane {
   DepthKind kind = DepthKind::kNone;
-  std::uint32_t equation = 0;  ///< kUnits: which of the surface's equations
+  std::uint32_t equation = 0;  ///< kUnits: the number of its equation
   std::int32_t low = 0;        ///< the range of its codes; the code of a flat one
   std::int32_t high = 0;
   std::int64_t add = 0;  ///< to every word: polygon offset and what rounds
@@ -68,8 +68,33 @@ struct SetUpTriangles {
   alignas(64) Field<std::int64_t> dx_high;
   alignas(64) Field<std::int64_t> dy_high;
   alignas(64) Field<std::int32_t> exponent;
-  alignas(64) Field<std::int32_t> full;  ///< kUnits: index in `whole`
-  std::vector<SetupTriangle> whole;      ///< of those that need the units
+  alignas(64) Field<std::int32_t> full;        ///< kUnits: index in `whole`
+  std::vector<SetupTriangle> whole;            ///< of those that need the units
+  const SetupTriangle* first_whole = nullptr;  ///< here, or where the triangles have been taken from
+
+  /// Calls visit(field, same field of `other`) for each.
+  template <class Visit>
+  void for_fields(SetUpTriangles& other, Visit&& visit) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      visit(a[k], other.a[k]);
+      visit(b[k], other.b[k]);
+      visit(e[k], other.e[k]);
+    }
+    for (const auto member :
+         {&SetUpTriangles::x_first, &SetUpTriangles::y_first, &SetUpTriangles::x_last,
+          &SetUpTriangles::y_last, &SetUpTriangles::number, &SetUpTriangles::order, &SetUpTriangles::kind,
+          &SetUpTriangles::low, &SetUpTriangles::high, &SetUpTriangles::x, &SetUpTriangles::y,
+          &SetUpTriangles::exponent, &SetUpTriangles::full}) {
+      visit(this->*member, other.*member);
+    }
+    for (const auto member :
+         {&SetUpTriangles::added, &SetUpTriangles::z, &SetUpTriangles::dx_high, &SetUpTriangles::dy_high}) {
+      visit(this->*member, other.*member);
+    }
+    for (const auto member : {&SetUpTriangles::dx, &SetUpTriangles::dy}) {
+      visit(this->*member, other.*member);
+    }
+  }
 
   void clear() {
     count = 0;

@@ -41,7 +41,7 @@ class Small {
   explicit Small(const RasterTask& task, Tallies& tallies)
       : task_(task),
         state_(task.draw->early_z),
-        counters_(task.draw->counters),
+        counters_(*task.counters),
         tallies_(tallies),
         windows_(task, tallies),
         found_(windows_.found),
@@ -177,7 +177,7 @@ class Small {
       if (tiles.plane[at] != kResolved) [[unlikely]] {
         const int number = found_.tile[q][lane];
         const int across = task_.surface->codes.tiles_x();
-        make_codes<TileSize>(tiles.planes[tiles.plane[at]], tiles, state_.format, state_.sub_pixel_bits,
+        make_codes<TileSize>(tiles.plane_of(tiles.plane[at]), tiles, state_.format, state_.sub_pixel_bits,
                              number % across, number / across,
                              task_.surface->codes.tile(static_cast<std::size_t>(number)));
         tiles.plane[at] = kResolved;

@@ -5,7 +5,8 @@
 
 namespace halfspace::fast {
 
-SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code)
+SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code,
+                           std::uint32_t threads)
     : block_shift(std::countr_zero(static_cast<unsigned>(block_tiles))),
       blocks_x(static_cast<std::uint32_t>((codes.tiles_x() + block_tiles - 1) / block_tiles)),
       blocks(blocks_x * static_cast<std::uint32_t>((codes.tiles_y() + block_tiles - 1) / block_tiles)),
@@ -13,18 +14,34 @@ SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_til
       z_min(unset_array<std::int32_t>(blocks * entries)),
       z_max(unset_array<std::int32_t>(blocks * entries)),
       plane(unset_array<std::uint32_t>(blocks * entries)),
-      opened(zeroed_array<std::uint8_t>(blocks)) {
+      opened(zeroed_array<std::uint8_t>(blocks)),
+      lists(threads) {
   clear(code);
 }
 
 void SurfaceTiles::clear(std::uint32_t code) {
-  forget_planes();
+  for (std::uint32_t list = 0; list < lists.size(); ++list) {
+    forget_planes(list);
+  }
   cleared_to = static_cast<std::int32_t>(code);
   ++epoch;
   if (epoch == 0) {  // before a number comes again, all flags go back to zero, which is no epoch
     opened = zeroed_array<std::uint8_t>(blocks);
     epoch = 1;
   }
+}
+
+std::uint32_t SurfaceTiles::add_plane(std::uint32_t number, Plane& plane, const DepthEquation* equation) {
+  PlaneList& list = lists[number];
+  const auto in_list = [&](std::size_t index) {
+    return number << kListShift | static_cast<std::uint32_t>(index);
+  };
+  if (equation != nullptr) {
+    plane.equation = in_list(list.equations.size());
+    list.equations.push_back(*equation);
+  }
+  list.planes.push_back(plane);
+  return in_list(list.planes.size() - 1);
 }
 
 void SurfaceTiles::start(std::uint32_t number) {

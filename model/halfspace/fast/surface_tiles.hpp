@@ -21,10 +21,17 @@ namespace halfspace::fast {
 /// Of SurfaceTiles::plane: the codes are in the image.
 inline constexpr std::uint32_t kResolved = 0xFFFFFFFFu;
 
+/// Planes that tiles are, in a list for each thread that draws.
+struct alignas(64) PlaneList {
+  std::vector<Plane> planes;
+  std::vector<DepthEquation> equations;  ///< of planes that the units must resolve
+};
+
 struct SurfaceTiles {
   SurfaceTiles() = default;
   /// `block_tiles`: tiles on a side of a block. Every tile has `code` in every sample.
-  SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code);
+  SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code,
+               std::uint32_t threads);
 
   /// Before something looks at the tiles of a block.
   void open(std::uint32_t number) {
@@ -46,10 +53,19 @@ struct SurfaceTiles {
 
   /// Every tile has `code` in every sample of the image, too.
   void clear(std::uint32_t code);
-  /// Forgets all planes, when no tile is one.
-  void forget_planes() {
-    planes.clear();
-    equations.clear();
+
+  /// Adds a plane to a list, with its equation where the units must resolve it; gives its number.
+  std::uint32_t add_plane(std::uint32_t list, Plane& plane, const DepthEquation* equation);
+  [[nodiscard]] const Plane& plane_of(std::uint32_t number) const {
+    return lists[number >> kListShift].planes[number & kInList];
+  }
+  [[nodiscard]] const DepthEquation& equation_of(const Plane& plane) const {
+    return lists[plane.equation >> kListShift].equations[plane.equation & kInList];
+  }
+  /// Forgets the planes of a list, when no tile is one.
+  void forget_planes(std::uint32_t list) {
+    lists[list].planes.clear();
+    lists[list].equations.clear();
   }
 
   int block_shift = 0;  ///< log2 of the tiles on a side of a block
@@ -58,14 +74,16 @@ struct SurfaceTiles {
   std::size_t entries = 0;        ///< of a block: its tiles in row order, and groups of kLanes full
   LazyArray<std::int32_t> z_min;  ///< no code of the tile is less
   LazyArray<std::int32_t> z_max;
-  LazyArray<std::uint32_t> plane;  ///< index in `planes`, or kResolved
+  LazyArray<std::uint32_t> plane;  ///< its number, or kResolved
   LazyArray<std::uint8_t> opened;  ///< by block: the epoch in which it was
   std::uint8_t epoch = 0;          ///< counts clears
   std::int32_t cleared_to = 0;     ///< what blocks are that have not been opened since
-  std::vector<Plane> planes;
-  std::vector<DepthEquation> equations;  ///< of planes that the units must resolve
+  std::vector<PlaneList> lists;
 
  private:
+  static constexpr int kListShift = 24;  ///< of a number
+  static constexpr std::uint32_t kInList = (1u << kListShift) - 1;
+
   void start(std::uint32_t number);
 };
 

@@ -168,7 +168,7 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
   plane.low = in.low[at];
   plane.high = in.high[at];
   if (out.kind == DepthKind::kUnits) {
-    out.whole = &in.whole[static_cast<std::size_t>(in.full[at])];
+    out.whole = in.first_whole + in.full[at];
     return;
   }
   if (out.kind == DepthKind::kFlat) {

@@ -48,9 +48,10 @@ class Walk {
   static constexpr std::size_t kMostTriangles = 16;
 
   Walk(const RasterTask& task, Tallies& tallies)
-      : counters_(task.draw->counters),
+      : counters_(*task.counters),
         tallies_(tallies),
         stream_(task.stream),
+        columns_(task.columns),
         surface_(task.surface),
         tiles_(task.tiles),
         func_(task.draw->early_z.func),
@@ -140,10 +141,12 @@ class Walk {
       }
       verdict.rejected = wide_negative(outside);
       verdict = as_configured(verdict, all);
+      const std::uint32_t own = all & columns_.lanes(static_cast<std::uint32_t>(x));
+      verdict.rejected &= own;
       counters_.tile_walker.blocks_rejected += ones(verdict.rejected);
       const std::uint32_t whole = verdict.whole();
       int next = 0;
-      for (std::uint32_t left = all & ~verdict.rejected; left != 0; left &= left - 1) {
+      for (std::uint32_t left = own & ~verdict.rejected; left != 0; left &= left - 1) {
         const int i = std::countr_zero(left);
         steps_ += static_cast<std::uint32_t>(i - next);
         next = i + 1;
@@ -440,6 +443,7 @@ class Walk {
   Counters& counters_;
   Tallies& tallies_;
   StreamWriter* const stream_;
+  const Columns columns_;
   Surface* const surface_;
   SurfaceTiles* const tiles_;
   const DepthFunc func_;

@@ -91,7 +91,8 @@ class WindowDepth {
       return {.whole = hn::ShiftRight<f>(low), .rest = rest};
     }
     const WideVector high = hn::LoadU(wide, high_bits.data() + at);
-    const WideVector low_whole = hn::And(hn::ShiftRight<f>(low), hn::Set(wide, (std::int64_t{1} << (64 - f)) - 1));
+    const WideVector low_whole =
+        hn::And(hn::ShiftRight<f>(low), hn::Set(wide, (std::int64_t{1} << (64 - f)) - 1));
     return {.whole = hn::Or(low_whole, hn::ShiftLeft<64 - f>(high)), .rest = rest};
   }
 
@@ -100,9 +101,8 @@ class WindowDepth {
     const WideTag wide;
     const int s = sub_pixel_bits_;
     const hn::Rebind<std::int32_t, WideTag> half_tag;
-    const auto field = [&](const SetUpTriangles::Field<std::int32_t>& values) HWY_ATTR {
-      return hn::PromoteTo(wide, hn::LoadU(half_tag, values.data() + at));
-    };
+    const auto field = [&](const SetUpTriangles::Field<std::int32_t>& values)
+                           HWY_ATTR { return hn::PromoteTo(wide, hn::LoadU(half_tag, values.data() + at)); };
     const Gradient x = gradient(in.dx, in.dx_high, at);
     const Gradient y = gradient(in.dy, in.dy_high, at);
     const WideVector half = hn::Set(wide, std::int64_t{1} << (kGradientFraction - 1));
@@ -113,8 +113,7 @@ class WindowDepth {
     // From the vertex to the first anchor.
     const auto distance = [&](const SetUpTriangles::Field<std::int32_t>& pixel,
                               const SetUpTriangles::Field<std::int32_t>& vertex) HWY_ATTR {
-      return hn::Add(hn::ShiftLeftSame(hn::And(field(pixel), square), s),
-                     hn::Sub(half_pixel, field(vertex)));
+      return hn::Add(hn::ShiftLeftSame(hn::And(field(pixel), square), s), hn::Sub(half_pixel, field(vertex)));
     };
     const WideVector to_x = distance(in.x_first, in.x);
     const WideVector to_y = distance(in.y_first, in.y);

@@ -57,7 +57,7 @@ class Windows {
 
   Windows(const RasterTask& task, Tallies& tallies)
       : task_(task),
-        counters_(task.draw->counters),
+        counters_(*task.counters),
         tallies_(tallies),
         block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))) {}
 
@@ -234,7 +234,9 @@ class Windows {
     const std::uint32_t several = wide | tall;
     std::array<std::uint32_t, 4> blocked{};  // tiles whose block is rejected
     several_ = several;
+    two_x_ = 0;
     found.columns_first = 0;
+    own_columns();
     if (several != 0) {
       decide_blocks(several, blocked);
     }
@@ -252,6 +254,7 @@ class Windows {
     found.hit = 0;
     for (unsigned q = 0; q < 4; ++q) {
       std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u) & ~blocked[q];
+      there &= (q & 1) != 0 ? (two_x_ & own_[1]) | (own_[0] & ~two_x_) : own_[0];
       found.covered[q] = 0;
       decided_[q] = there;
       jobs_[q] = 0;
@@ -287,6 +290,15 @@ class Windows {
     }
   }
 
+  /// Windows whose first column of blocks, and whose second, are the task's.
+  void own_columns() {
+    const Vector column = hn::ShiftRightSame(x_first_, block_shift_);
+    const Vector mask = set(task_.columns.mask);
+    const Vector own = set(task_.columns.own);
+    own_[0] = bits_of(hn::Eq(hn::And(column, mask), own));
+    own_[1] = bits_of(hn::Eq(hn::And(hn::Add(column, set(1)), mask), own));
+  }
+
   void decide_blocks(std::uint32_t several, std::array<std::uint32_t, 4>& blocked) {
     const Vector first_x = hn::ShiftRightSame(x_first_, block_shift_);
     const Vector first_y = hn::ShiftRightSame(y_first_, block_shift_);
@@ -296,7 +308,8 @@ class Windows {
     two_y_ = two_y;
     found.columns_first = two_x & ~two_y;
     for (unsigned q = 0; q < 4; ++q) {
-      const std::uint32_t there = several & ((q & 1) != 0 ? two_x : ~0u) & ((q & 2) != 0 ? two_y : ~0u);
+      const std::uint32_t there =
+          several & ((q & 1) != 0 ? two_x : ~0u) & ((q & 2) != 0 ? two_y : ~0u) & own_[q & 1];
       blocks_[q] = there;
       if (there == 0) {
         continue;
@@ -400,6 +413,7 @@ class Windows {
   Vector e_[3];  ///< at the window's first sample
   Vector inside_[kWords];
 
+  std::array<std::uint32_t, 2> own_{};
   // Of the walk, for the stream: bits of lanes.
   std::uint32_t several_ = 0;               ///< with more tiles than one, so with blocks
   std::uint32_t two_x_ = 0;                 ///< with two blocks in a row

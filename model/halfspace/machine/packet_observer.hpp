@@ -56,6 +56,7 @@ struct Watch {
   bool count_pixels = true;            ///< fill Surface::fragments and survivors
   PacketObserver* observer = nullptr;  ///< must outlive the run
   Core core = Core::kAuto;             ///< of the functional engines
+  int threads = 1;                     ///< that the run may use, at least 1
 };
 
 }  // namespace halfspace

@@ -23,8 +23,7 @@ std::uint8_t written_parts(const TileMask& passed, const DrawContext& draw, int 
 }
 
 /// Counts a burst that touched `touched` parts, and the lines that moved for it.
-inline void count_z_cache(DrawContext& draw, std::uint8_t touched, const ZMisses& misses) {
-  EarlyZCounters& counters = draw.counters.early_z;
+inline void count_z_cache(EarlyZCounters& counters, std::uint8_t touched, const ZMisses& misses) {
   ++counters.z_bursts;
   counters.z_hits += static_cast<std::uint64_t>(std::popcount(touched)) - misses.count;
   counters.z_misses += misses.count;
@@ -41,7 +40,7 @@ inline void count_z_cache(DrawContext& draw, std::uint8_t touched, const ZMisses
 inline ZMisses z_cache(ZCache& cache, const ZSurface& surface, const Coverage& coverage, std::uint8_t touched,
                        std::uint8_t written, DrawContext& draw) {
   const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, touched, written);
-  count_z_cache(draw, touched, misses);
+  count_z_cache(draw.counters.early_z, touched, misses);
   return misses;
 }
 

@@ -92,7 +92,7 @@ void ZTest::move_lines(const PendingToken& token, Cycle at) {
                                    .fetch = fetched,
                                    .write_back = victim.dirty};
   }
-  passage::count_z_cache(*token.draw, token.touched, misses);
+  passage::count_z_cache(token.draw->counters.early_z, token.touched, misses);
 }
 
 void ZTest::take_victim(const ZLines::Victim& victim, std::uint32_t slot, DrawContext* draw, Cycle at) {
