@@ -18,7 +18,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   result.surfaces = make_surfaces(frame, config.tile_walker.tile_size, Watch{.count_pixels = false});
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);
   std::deque<DrawContext> draws;
-  FrameSource source(frame, config, nullptr, result, draws);
+  FrameSource source(frame, config, nullptr, result.surfaces, result, draws);
   std::vector<SetupJob> jobs;
   for (std::uint32_t command = 0; command < frame.commands.size(); ++command) {
     source.begin(command);

@@ -22,15 +22,16 @@ std::uint32_t BlockCache::columns(const ZCacheShape& shape, int block_shift) {
 
 BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<BlockSurface> all)
     : ways(shape.ways), parts(shape.parts), surfaces(std::move(all)) {
-  x_bits = x_set_bits(shape) - block_shift;
-  const int y_bits = y_set_bits(shape) - block_shift;
+  const int x_bits = x_set_bits(shape) - block_shift;
+  y_bits = y_set_bits(shape) - block_shift;
   x_mask = (1u << x_bits) - 1;
   y_mask = (1u << y_bits) - 1;
   groups = std::max<std::size_t>(1, (std::size_t{1} << 2 * block_shift) / kLanes);
   entries = groups * kLanes;
-  of_part = entries << (x_bits + y_bits);
+  of_part = entries;
   of_way = of_part * static_cast<std::size_t>(parts);
-  size = of_way * static_cast<std::size_t>(ways);
+  of_block = of_way * static_cast<std::size_t>(ways);
+  size = of_block << (x_bits + y_bits);
   tag = unset_array<std::int32_t>(size);
   std::fill_n(tag.get(), size, kFree);
   slot = unset_array<std::uint32_t>(size);
@@ -40,14 +41,14 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
 
 void BlockCache::number_slots(const ZCacheShape& shape, int block_shift) {
   const std::size_t side = std::size_t{1} << block_shift;
-  const int x_set = x_bits + block_shift;
+  const int x_set = x_set_bits(shape);
   for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t way = i / of_way;
+    const std::size_t block = i / of_block;
+    const std::size_t way = i % of_block / of_way;
     const std::size_t part = i % of_way / of_part;
-    const std::size_t block = i % of_part / entries;
     const std::size_t tile = i % entries % (side * side);  // no tile is behind a small block's last
-    const std::size_t x = (block & x_mask) << block_shift | tile % side;
-    const std::size_t y = block >> x_bits << block_shift | tile / side;
+    const std::size_t x = block >> y_bits << block_shift | tile % side;
+    const std::size_t y = (block & y_mask) << block_shift | tile / side;
     const std::size_t set = x | y << x_set;
     slot[i] = static_cast<std::uint32_t>(
         (part * static_cast<std::size_t>(shape.sets()) + set) * static_cast<std::size_t>(shape.ways) + way);
@@ -58,11 +59,12 @@ void BlockCache::clear(const BlockSurface& surface) {
   const auto first = static_cast<std::int32_t>(surface.first);
   const auto end = static_cast<std::int32_t>(surface.first + surface.blocks);
   std::vector<std::uint32_t> free;
-  for (std::size_t set = 0; set < of_way; ++set) {
+  for (std::size_t line = 0; line < size / static_cast<std::size_t>(ways); ++line) {
+    const std::size_t begin = line / of_way * of_block + line % of_way;
     // What stays moves to the front; what is free follows, the one used longest ago last.
     free.clear();
-    std::size_t kept = set;
-    for (std::size_t from = set; from < size; from += of_way) {
+    std::size_t kept = begin;
+    for (std::size_t from = begin; from < begin + of_block; from += of_way) {
       if (tag[from] == kFree || (tag[from] >= first && tag[from] < end)) {
         free.push_back(slot[from] & ~kDirty);
         continue;

@@ -50,7 +50,7 @@ struct BlockCache {
 
   /// Of the sets of a block's tiles, in entries; `block_x` and `block_y` are in blocks.
   [[nodiscard]] std::size_t sets(std::uint32_t block_x, std::uint32_t block_y) const {
-    return ((block_x & x_mask) | (block_y & y_mask) << x_bits) * entries;
+    return ((block_x & x_mask) << y_bits | (block_y & y_mask)) * of_block;
   }
 
   [[nodiscard]] std::uint32_t line_bytes(std::uint32_t block) const {
@@ -109,15 +109,18 @@ struct BlockCache {
   int parts = 0;
   std::uint32_t x_mask = 0;
   std::uint32_t y_mask = 0;
-  int x_bits = 0;
+  int y_bits = 0;
   std::size_t groups = 0;   ///< of kLanes tiles, of a block
   std::size_t entries = 0;  ///< kLanes a group
-  std::size_t of_part = 0;  ///< entries of all sets
-  std::size_t of_way = 0;   ///< entries of all parts
+  // Entries lie by set of a block, column by column; in it by way, the most recently used first; by part; by
+  // tile. So a column's lie together, and apart from those of another, which another thread may write to.
+  std::size_t of_part = 0;
+  std::size_t of_way = 0;
+  std::size_t of_block = 0;
+  std::size_t size = 0;
   std::vector<BlockSurface> surfaces;
-  std::size_t size = 0;                ///< entries of all ways
-  LazyArray<std::int32_t> tag;         ///< by way, the most recently used first; then by part and set
-  LazyArray<std::uint32_t> slot;       ///< alike: where in the cache the line lies, and whether it is dirty
+  LazyArray<std::int32_t> tag;
+  LazyArray<std::uint32_t> slot;       ///< where in the cache the line lies, and whether it is dirty
   std::vector<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
 
  private:

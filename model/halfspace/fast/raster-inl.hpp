@@ -59,7 +59,7 @@ class Raster {
     test(false);
     small_.tally();
     middle_.tally();
-    tallies_.add_to(*task_.counters, task_.draw->early_z, Walk<TileSize>::kSamples / 4);
+    tallies_.add_to(*task_.draw, Walk<TileSize>::kSamples / 4);
   }
 
  private:
@@ -118,16 +118,15 @@ template <int TileSize>
 void resolve_tiles(int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
   const int side = 1 << tiles.block_shift;
   for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
-    if (tiles.opened[block] != tiles.epoch || !columns.has(block % tiles.blocks_x)) {
+    const SurfaceTiles::Tile first = tiles.first_tile(block);
+    if (tiles.opened[block] != tiles.epoch || !columns.has(static_cast<std::uint32_t>(first.x / side))) {
       continue;
     }
-    const int first_x = static_cast<int>(block % tiles.blocks_x) * side;
-    const int first_y = static_cast<int>(block / tiles.blocks_x) * side;
     for (int i = 0; i < side * side; ++i) {
       std::uint32_t& plane = tiles.plane[block * tiles.entries + static_cast<std::size_t>(i)];
       if (plane != kResolved) {
-        const int x = first_x + i % side;
-        const int y = first_y + i / side;
+        const int x = first.x + i % side;
+        const int y = first.y + i / side;
         make_codes<TileSize>(tiles.plane_of(plane), tiles, surface.format, sub_pixel_bits, x, y,
                              surface.codes.tile(x, y));
         plane = kResolved;

@@ -17,8 +17,10 @@
 
 namespace halfspace::fast {
 
-/// Columns of blocks: every so many-th, a power of two up to 8.
+/// Columns of blocks: every so many-th, a power of two up to kMost.
 struct Columns {
+  static constexpr std::uint32_t kMost = 8;
+
   std::uint32_t mask = 0;  ///< of a column's number
   std::uint32_t own = 0;   ///< what is under it
 
@@ -33,9 +35,8 @@ struct Columns {
 
 /// A draw, and what its triangles work on. `tiles` and `surface` are null where the target has no depth.
 struct RasterTask {
-  const DrawContext* draw = nullptr;
-  Counters* counters = nullptr;  ///< those of the draw, or a thread's share of them
-  Columns columns;               ///< that are drawn
+  DrawContext* draw = nullptr;
+  Columns columns;  ///< that are drawn
   WalkerConfig walker;
   SurfaceTiles* tiles = nullptr;
   Surface* surface = nullptr;

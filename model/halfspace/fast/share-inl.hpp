@@ -25,9 +25,8 @@ inline void take_share_of(const SetUpTriangles& in, Columns columns, int block_s
   const int shift = std::countr_zero(static_cast<unsigned>(block_size));
   out.clear();
   out.first_whole = in.first_whole;
-  const auto column = [&](const SetUpTriangles::Field<std::int32_t>& x, std::size_t at) HWY_ATTR {
-    return hn::ShiftRightSame(hn::LoadU(tag, x.data() + at), shift);
-  };
+  const auto column = [&](const SetUpTriangles::Field<std::int32_t>& x, std::size_t at)
+                          HWY_ATTR { return hn::ShiftRightSame(hn::LoadU(tag, x.data() + at), shift); };
   for (std::size_t at = 0; at < in.count; at += static_cast<std::size_t>(kWidth)) {
     // Columns from the first to the next one that is among them: does the triangle reach that far?
     const Vector first = column(in.x_first, at);

@@ -5,11 +5,29 @@
 
 namespace halfspace::fast {
 
+namespace {
+
+std::uint32_t columns_of_thread(int tiles_x, int block_tiles, std::uint32_t threads) {
+  const auto columns = static_cast<std::uint32_t>((tiles_x + block_tiles - 1) / block_tiles);
+  return (columns + threads - 1) / threads;
+}
+
+std::uint32_t blocks_of_thread(std::uint32_t columns, int tiles_y, int block_tiles, std::uint32_t threads) {
+  constexpr std::uint32_t kLine = 64;  // bytes of the processor's cache: a block has one, or more
+  const std::uint32_t blocks =
+      columns * static_cast<std::uint32_t>((tiles_y + block_tiles - 1) / block_tiles);
+  return threads == 1 ? blocks : (blocks + kLine - 1) / kLine * kLine;
+}
+
+}  // namespace
+
 SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code,
                            std::uint32_t threads)
     : block_shift(std::countr_zero(static_cast<unsigned>(block_tiles))),
-      blocks_x(static_cast<std::uint32_t>((codes.tiles_x() + block_tiles - 1) / block_tiles)),
-      blocks(blocks_x * static_cast<std::uint32_t>((codes.tiles_y() + block_tiles - 1) / block_tiles)),
+      thread_shift(std::countr_zero(threads)),
+      across(columns_of_thread(codes.tiles_x(), block_tiles, threads)),
+      of_thread(blocks_of_thread(across, codes.tiles_y(), block_tiles, threads)),
+      blocks(of_thread * threads),
       entries(static_cast<std::size_t>(std::max(block_tiles * block_tiles, kLanes))),
       z_min(unset_array<std::int32_t>(blocks * entries)),
       z_max(unset_array<std::int32_t>(blocks * entries)),

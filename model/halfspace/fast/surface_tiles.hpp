@@ -22,7 +22,7 @@ namespace halfspace::fast {
 inline constexpr std::uint32_t kResolved = 0xFFFFFFFFu;
 
 /// Planes that tiles are, in a list for each thread that draws.
-struct alignas(64) PlaneList {
+struct alignas(128) PlaneList {
   std::vector<Plane> planes;
   std::vector<DepthEquation> equations;  ///< of planes that the units must resolve
 };
@@ -40,8 +40,21 @@ struct SurfaceTiles {
     }
   }
 
-  /// Block (x, y), in blocks.
-  [[nodiscard]] std::uint32_t block(std::uint32_t x, std::uint32_t y) const { return y * blocks_x + x; }
+  /// Block (x, y), in blocks. Those of a thread's columns lie together, so that no two threads write to the
+  /// same line of the processor's cache.
+  [[nodiscard]] std::uint32_t block(std::uint32_t x, std::uint32_t y) const {
+    return (x & ((1u << thread_shift) - 1)) * of_thread + y * across + (x >> thread_shift);
+  }
+  /// The first tile of a block.
+  struct Tile {
+    int x;
+    int y;
+  };
+  [[nodiscard]] Tile first_tile(std::uint32_t block) const {
+    const std::uint32_t in_columns = block % of_thread;
+    const std::uint32_t x = in_columns % across << thread_shift | block / of_thread;
+    return {static_cast<int>(x << block_shift), static_cast<int>(in_columns / across << block_shift)};
+  }
   /// Where a tile is in the lists below.
   [[nodiscard]] std::size_t index(int tile_x, int tile_y) const {
     const auto x = static_cast<std::uint32_t>(tile_x);
@@ -68,9 +81,11 @@ struct SurfaceTiles {
     lists[list].equations.clear();
   }
 
-  int block_shift = 0;  ///< log2 of the tiles on a side of a block
-  std::uint32_t blocks_x = 0;
-  std::uint32_t blocks = 0;
+  int block_shift = 0;            ///< log2 of the tiles on a side of a block
+  int thread_shift = 0;           ///< log2 of the threads
+  std::uint32_t across = 0;       ///< columns of blocks of a thread
+  std::uint32_t of_thread = 0;    ///< blocks of a thread, with some that no tile is in
+  std::uint32_t blocks = 0;       ///< of all threads
   std::size_t entries = 0;        ///< of a block: its tiles in row order, and groups of kLanes full
   LazyArray<std::int32_t> z_min;  ///< no code of the tile is less
   LazyArray<std::int32_t> z_max;

@@ -48,7 +48,7 @@ class Walk {
   static constexpr std::size_t kMostTriangles = 16;
 
   Walk(const RasterTask& task, Tallies& tallies)
-      : counters_(*task.counters),
+      : counters_(task.draw->counters),
         tallies_(tallies),
         stream_(task.stream),
         columns_(task.columns),

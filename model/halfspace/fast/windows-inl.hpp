@@ -57,7 +57,7 @@ class Windows {
 
   Windows(const RasterTask& task, Tallies& tallies)
       : task_(task),
-        counters_(*task.counters),
+        counters_(task.draw->counters),
         tallies_(tallies),
         block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))) {}
 
@@ -364,14 +364,17 @@ class Windows {
     const Vector in_block = number((1u << tiles.block_shift) - 1);
     const Vector inside =
         hn::Add(hn::ShiftLeftSame(hn::And(tile_y, in_block), tiles.block_shift), hn::And(tile_x, in_block));
-    const Vector block = hn::Add(hn::Mul(block_y, number(tiles.blocks_x)), block_x);
+    const Vector thread = hn::And(block_x, number((1u << tiles.thread_shift) - 1));
+    const Vector block =
+        hn::Add(hn::Add(hn::Mul(thread, number(tiles.of_thread)), hn::Mul(block_y, number(tiles.across))),
+                hn::ShiftRightSame(block_x, tiles.thread_shift));
     const Vector set_of_block =
-        hn::Or(hn::And(block_x, number(cache.x_mask)),
-               hn::ShiftLeftSame(hn::And(block_y, number(cache.y_mask)), cache.x_bits));
+        hn::Or(hn::ShiftLeftSame(hn::And(block_x, number(cache.x_mask)), cache.y_bits),
+               hn::And(block_y, number(cache.y_mask)));
     hn::Store(hn::Add(hn::Mul(tile_y, set(task_.surface->codes.tiles_x())), tile_x), tag, found.tile[q]);
     hn::Store(block, tag, found.block[q]);
     hn::Store(hn::Add(hn::Mul(block, number(tiles.entries)), inside), tag, found.at[q]);
-    hn::Store(hn::Add(hn::Mul(set_of_block, number(cache.entries)), inside), tag, found.entry[q]);
+    hn::Store(hn::Add(hn::Mul(set_of_block, number(cache.of_block)), inside), tag, found.entry[q]);
   }
 
   /// Returns the steps after the last job.

@@ -13,9 +13,15 @@ constexpr std::uint32_t kFrontEndBatch = 256;
 }  // namespace
 
 FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserver* observer,
-                         FrameResult& result, std::deque<DrawContext>& draws)
-    : frame_(frame), config_(config), observer_(observer), result_(result), draws_(draws) {
-  depth_written_.assign(result.surfaces.size(), false);
+                         const std::vector<Surface>& surfaces, FrameResult& result,
+                         std::deque<DrawContext>& draws)
+    : frame_(frame),
+      config_(config),
+      observer_(observer),
+      surfaces_(surfaces),
+      result_(result),
+      draws_(draws) {
+  depth_written_.assign(surfaces.size(), false);
   for (const Command& command : frame.commands) {
     if (command.kind != CommandKind::kDraw) {
       continue;
@@ -79,7 +85,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   const Target& target = frame_.targets[command.target];
   const std::uint32_t number = target.depth_surface;
   const bool has_depth = number != kNoSurface;
-  const DepthFormat format = has_depth ? result_.surfaces[number].format : DepthFormat::kNone;
+  const DepthFormat format = has_depth ? surfaces_[number].format : DepthFormat::kNone;
   DrawContext& draw = draws_.emplace_back();
   draw.draw = draws_begun_++;
   draw.command = index;
@@ -87,8 +93,8 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.first_triangle = first_triangle_;
   draw.setup = setup_state(command, target, format, config_);
   draw.early_z = early_z_state(command, format, config_);
-  draw.keeps_visible = has_depth && !result_.surfaces[number].visible.empty() &&
-                       (draw.early_z.write || !depth_written_[number]);
+  draw.keeps_visible =
+      has_depth && !surfaces_[number].visible.empty() && (draw.early_z.write || !depth_written_[number]);
   if (observer_ != nullptr) {
     draw.observer = observer_;
     draw.record_quads = observer_->wants_quads();
@@ -113,7 +119,7 @@ void FrameSource::begin_clear(const Command& command) {
     return;
   }
   ++result_.clears;
-  const Surface& surface = result_.surfaces[target.depth_surface];
+  const Surface& surface = surfaces_[target.depth_surface];
   const PixelRect rect = drawable_rect(command.scissor, target);
   const std::uint32_t code = code_of_depth(surface.format, command.clear_depth);
   if (clears_fast(rect, surface, config_)) {

@@ -30,12 +30,12 @@ struct RawTriangles {
   std::uint32_t count = 0;
 };
 
-/// Executes the commands of a frame. All references must outlive it; `result` has its surfaces, `observer`
-/// may be null. Draws are added to `draws` as they begin.
+/// Executes the commands of a frame. All references must outlive it; `surfaces` are those of the frame,
+/// `observer` may be null. Draws are added to `draws` as they begin, clears counted in `result`.
 class FrameSource {
  public:
-  FrameSource(const Frame& frame, const Config& config, PacketObserver* observer, FrameResult& result,
-              std::deque<DrawContext>& draws);
+  FrameSource(const Frame& frame, const Config& config, PacketObserver* observer,
+              const std::vector<Surface>& surfaces, FrameResult& result, std::deque<DrawContext>& draws);
 
   /// Begins a command, by its index; the one before must be done. Gives the draw, or the clear that is drawn;
   /// null where the command is neither.
@@ -54,6 +54,7 @@ class FrameSource {
   const Frame& frame_;
   const Config& config_;
   PacketObserver* observer_;
+  const std::vector<Surface>& surfaces_;
   FrameResult& result_;
   std::deque<DrawContext>& draws_;
   std::vector<bool> depth_written_;  ///< by surface: some draw of the frame writes its depth

@@ -80,7 +80,7 @@ class InOrderRun {
   }
 
   FrameResult run() {
-    FrameSource source(frame_, config_, observer_, result_, draws_);
+    FrameSource source(frame_, config_, observer_, result_.surfaces, result_, draws_);
     for (std::uint32_t i = 0; i < frame_.commands.size(); ++i) {
       DrawContext* const draw = source.begin(i);
       if (draw != nullptr) {

@@ -206,7 +206,7 @@ ScalarLoop::ScalarLoop(const Frame& frame, const Config& config)
   FrameResult result;
   result.surfaces = make_surfaces(frame, config.tile_walker.tile_size, Watch{.count_pixels = false});
   std::deque<DrawContext> contexts;
-  FrameSource source(frame, config, nullptr, result, contexts);
+  FrameSource source(frame, config, nullptr, result.surfaces, result, contexts);
   for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {
     if (const DrawContext* const draw = source.begin(i)) {
       draws_.push_back(scalar_draw(*draw));

@@ -56,7 +56,7 @@ class PrefixRun {
   }
 
   Counters run() {
-    FrameSource source(frame_, config_, nullptr, result_, draws_);
+    FrameSource source(frame_, config_, nullptr, result_.surfaces, result_, draws_);
     for (std::uint32_t i = 0; i < frame_.commands.size(); ++i) {
       draw_ = source.begin(i);
       if (draw_ != nullptr && kLast < Last::kFrontEnd) {

@@ -24,7 +24,7 @@ Driver::Driver(const Frame& frame, RunState& run, PortListener& listener)
     : frame_(frame),
       run_(run),
       listener_(listener),
-      source_(frame, run.config, run.options.watch.observer, run.result, run.draws),
+      source_(frame, run.config, run.options.watch.observer, run.result.surfaces, run.result, run.draws),
       before_(run.config, run.report),
       longest_rest_(kLongestRest + 4 * static_cast<Cycle>(run.config.memory.latency)) {
   const int tile_size = run.config.tile_walker.tile_size;

@@ -63,7 +63,7 @@ void Source::begin_frame() {
   triangles_ = 0;
   next_arrival_ = 0;
   control_.begin_frame();
-  frame_.emplace(*run_.frame, run_.config, run_.observer, run_.result, run_.draws);
+  frame_.emplace(*run_.frame, run_.config, run_.observer, run_.result.surfaces, run_.result, run_.draws);
 }
 
 /// Waits for the first cycle in which everything has left the pipe, and returns it.
