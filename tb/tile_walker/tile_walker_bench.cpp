@@ -42,9 +42,9 @@ std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles, const
   config.setup.queue = config.setup.fifo = config.edge_evaluator.fifo = config.quad_generator.fifo =
       kMostCredits;
   PacketTimes times;
-  CycleProbe<false> probe(capacities(config), &times, nullptr);
+  CycleProbe<true> probe(capacities(config), &times);
   RecurrenceMemory<OneMachine> memory = recurrence_memory(config, 0);
-  RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core(memory, NoStalls{}, probe);
+  RecurrenceCore<OneMachine, NoStalls, CycleProbe<true>> core(memory, NoStalls{}, probe);
   std::vector<std::uint32_t> words(InputWords(walker.widths()).triangle);
   for (const SetupTriangle& triangle : triangles) {
     pack(to_packet(triangle, walker.walker(), walker.tile_size), walker.widths(), words);

@@ -16,11 +16,11 @@ namespace {
 class Rig {
  public:
   explicit Rig(const Config& config)
-      : probe_(capacities(config), &times, nullptr),
+      : probe_(capacities(config), &times),
         memory_(recurrence_memory(config, 1000)),
         core_(memory_, NoStalls{}, probe_),
         lines_(static_cast<std::uint32_t>(config.z_cache.lines)) {
-    probe_.draw(0);
+    probe_.draw(0, core_.progress());
   }
 
   void dropped(int count = 1) {
@@ -48,9 +48,9 @@ class Rig {
   PacketTimes times;
 
  private:
-  CycleProbe<false> probe_;
+  CycleProbe<true> probe_;
   RecurrenceMemory<OneMachine> memory_;
-  RecurrenceCore<OneMachine, NoStalls, CycleProbe<false>> core_;
+  RecurrenceCore<OneMachine, NoStalls, CycleProbe<true>> core_;
   std::uint32_t lines_;
 };
 

@@ -83,7 +83,7 @@ class RecurrenceCore {
     const S visible = decide + (machine().setup_latency + stall(StallPoint::kSetup, triangles_));
     const S taken = later(visible + 1, clock_.setup(walk_next_));  // the cycle after accept
     if constexpr (Probe::kLooks) {
-      probe_->link(Link::kSetup, decide, taken);
+      probe_->link(Link::kSetup, triangles_, decide, taken);
       if (taken > walk_next_) {
         probe_->template split<2>(Stage::kTileWalker, walk_next_, {taken - 1, taken}, 0);
       }
@@ -103,11 +103,11 @@ class RecurrenceCore {
     const T g = later(later(coverage, g_next_), fifo<Fifo::kQuadGenerator>().usable(bursts_));
     if constexpr (Probe::kLooks) {
       const T visible = emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_));
-      probe_->link(Link::kTileWalker, emit_next - 1, e + 1);
+      probe_->link(Link::kTileWalker, jobs_, emit_next - 1, e + 1);
       probe_->busy(Stage::kTileWalker, walk_next_, stepped);
       probe_->wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emit_next);
       probe_->note(&PacketTimes::emit, emit_next - 1);
-      probe_->link(Link::kEdgeEvaluator, e, g + 1);
+      probe_->link(Link::kEdgeEvaluator, jobs_, e, g + 1);
       probe_->template split<2>(Stage::kEdgeEvaluator, e_next_, {visible, e}, 1);
       probe_->note(&PacketTimes::e, e);
       probe_->template split<2>(Stage::kQuadGenerator, g_next_, {coverage, g},
@@ -155,6 +155,13 @@ class RecurrenceCore {
     return later(clock_.setup(scan_next + (lines - seen)), clock_.setup(later(written_next_, y_next_)));
   }
 
+  /// What the probe wants to know where a draw ends.
+  [[nodiscard]] Progress<T> progress() const {
+    return {.free = {decide_next_, walk_next_, e_next_, g_next_, f_next_, b_next_},
+            .sink_next = y_next_,
+            .packets = {culled_, triangles_, jobs_, jobs_, bursts_, bursts_, bursts_}};
+  }
+
   /// First cycle of beat 0 of the last burst at the sink.
   [[nodiscard]] T sink_start() const { return y_; }
   /// Cycle after the last beat of all bursts at the sink.
@@ -198,7 +205,7 @@ class RecurrenceCore {
 
   /// Tells of a decision: the verdict was at the queue's head in `head`, and the divider free in `divider`.
   void decided(const S& head, const S& divider, const S& decide) {
-    probe_->link(Link::kSetupQueue, cull_next_ - 1, decide + 1);
+    probe_->link(Link::kSetupQueue, culled_, cull_next_ - 1, decide + 1);
     probe_->template split<3>(Stage::kSetup, decide_next_, {head, divider, decide}, 1);
     probe_->note(&PacketTimes::decide, decide);
   }
@@ -272,7 +279,7 @@ class RecurrenceCore {
     const T f = later(later(visible, f_next_), fifo<Fifo::kEarlyZPending>().usable(bursts_));
     const T moved = f + beats_of(work);
     if constexpr (Probe::kLooks) {
-      probe_->link(Link::kQuadGenerator, g, moved);
+      probe_->link(Link::kQuadGenerator, bursts_, g, moved);
       probe_->template split<2>(Stage::kZLookup, f_next_, {visible, f}, moved - f);
       probe_->note(&PacketTimes::f, f);
     }
@@ -289,7 +296,7 @@ class RecurrenceCore {
     }
     const T beats = machine().test_beats[static_cast<std::size_t>(work.quads)];
     if constexpr (Probe::kLooks) {
-      probe_->link(Link::kEarlyZPending, f, b + beats);
+      probe_->link(Link::kEarlyZPending, bursts_, f, b + beats);
       probe_->template split<4>(Stage::kZTest, b_next_, {f + machine().lookup_latency, filled_next, slots, b},
                                 beats);
       probe_->note(&PacketTimes::b, b);
@@ -301,12 +308,11 @@ class RecurrenceCore {
     }
     y_ = later(b + (kTestLatency + stall(StallPoint::kSink, bursts_)), y_next_);
     y_next_ = y_ + beats;
-    fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
     if constexpr (Probe::kLooks) {
-      probe_->link(Link::kEarlyZ, b, y_next_);
-      probe_->burst_left(y_next_);
+      probe_->link(Link::kEarlyZ, bursts_, b, y_next_);
       probe_->note(&PacketTimes::y, y_);
     }
+    fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
   }
 
   /// Resolves the missing parts, one after the other, and sends the requests of those to fetch; gives the

@@ -71,6 +71,14 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   return m;
 }
 
+/// How far a machine is.
+template <class T>
+struct Progress {
+  std::array<T, kStages> free;                ///< by stage: first cycle in which it could take another packet
+  T sink_next;                                ///< cycle after the last beat of all bursts at the sink
+  std::array<std::uint64_t, kLinks> packets;  ///< by link: so many have taken a credit
+};
+
 /// The credits of a FIFO of one machine, by the packets that use them.
 class Credits {
  public:

@@ -10,16 +10,17 @@ namespace halfspace {
 namespace {
 
 /// Times the stream of a frame while the units run.
-template <class Stalls, bool kObserved>
+template <class Stalls, bool kEach>
 class RecurrenceReader final : public StreamReader {
  public:
   RecurrenceReader(const Config& config, const Stalls& stalls, CycleObserver* observer, PacketTimes* times)
       : config_(config),
+        observed_(observer != nullptr),
         probe_(capacities(config), times, observer),
         memory_(recurrence_memory(config, 0)),
         core_(memory_, stalls, probe_) {}
 
-  [[nodiscard]] bool wants_tiles() const override { return kObserved; }
+  [[nodiscard]] bool wants_tiles() const override { return observed_; }
   [[nodiscard]] bool has_time() const override { return true; }
 
   void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) override {
@@ -35,7 +36,7 @@ class RecurrenceReader final : public StreamReader {
   }
 
   void end(std::span<const ZFlush> dirty) override {
-    probe_.drained();
+    probe_.drained(core_.progress());
     cycles_ = core_.flush(dirty, static_cast<std::uint32_t>(config_.z_cache.lines));
   }
 
@@ -49,11 +50,11 @@ class RecurrenceReader final : public StreamReader {
 
     void begin_segment(const StreamSegment& segment) {
       reader.in_draw_ = segment.kind == StreamSegment::Kind::kDraw;
-      reader.probe_.draw(reader.in_draw_ ? reader.draws_++ : kNoDraw);
+      reader.probe_.draw(reader.in_draw_ ? reader.draws_++ : kNoDraw, reader.core_.progress());
     }
     void job(std::size_t index) {
-      if constexpr (kObserved) {
-        if (reader.in_draw_) {
+      if constexpr (kEach) {
+        if (reader.observed_ && reader.in_draw_) {
           reader.probe_.tile(part.tiles[index]);
         }
       }
@@ -67,9 +68,10 @@ class RecurrenceReader final : public StreamReader {
   };
 
   const Config& config_;
-  CycleProbe<kObserved> probe_;
+  bool observed_;
+  CycleProbe<kEach> probe_;
   RecurrenceMemory<OneMachine> memory_;
-  RecurrenceCore<OneMachine, Stalls, CycleProbe<kObserved>> core_;
+  RecurrenceCore<OneMachine, Stalls, CycleProbe<kEach>> core_;
   std::vector<std::uint64_t> clear_cycles_;  ///< by surface
   std::uint32_t draws_ = 0;
   bool in_draw_ = false;
@@ -77,12 +79,12 @@ class RecurrenceReader final : public StreamReader {
   std::uint64_t cycles_ = 0;
 };
 
-template <bool kObserved, class Stalls>
+template <bool kEach, class Stalls>
 TimedResult run_with(const Frame& frame, const Config& config, const EngineOptions& options,
                      const Stalls& stalls) {
   TimedResult result;
-  RecurrenceReader<Stalls, kObserved> reader(config, stalls, options.observer,
-                                             options.packet_times ? &result.times : nullptr);
+  RecurrenceReader<Stalls, kEach> reader(config, stalls, options.observer,
+                                         options.packet_times ? &result.times : nullptr);
   result.frame = run_core(frame, config, options.watch, &reader);
   result.cycles = reader.finish();
   return result;
@@ -91,7 +93,7 @@ TimedResult run_with(const Frame& frame, const Config& config, const EngineOptio
 }  // namespace
 
 TimedResult run_recurrence(const Frame& frame, const Config& config, const EngineOptions& options) {
-  if (options.observer != nullptr) {
+  if (options.observer != nullptr || options.packet_times) {
     return run_with<true>(frame, config, options, options.stalls);
   }
   return options.stalls.any() ? run_with<false>(frame, config, options, options.stalls)

@@ -70,7 +70,7 @@ void CycleMeter::give_back(Link link, Cycle usable) {
   }
   const Held held = held_[i].front();
   held_[i].pop_front();
-  links_[i].add(held.since, usable);
+  links_[i].add(book_.frame().packets[i], held.since, usable);
   book_.count(held.draw, [&](CycleStats& stats) {
     stats.held[i] += usable - held.since;
     ++stats.packets[i];
@@ -86,7 +86,7 @@ FrameCycles CycleMeter::finish(Cycle cycles, const std::deque<DrawContext>& draw
     flush(static_cast<Stage>(i), nullptr);
   }
   for (std::size_t i = 0; i < kLinks; ++i) {
-    book_.frame().occupancy[i] = links_[i].finish(cycles);
+    book_.frame().occupancy[i] = links_[i].finish(book_.frame().packets[i], cycles);
   }
   const auto count = std::ranges::count_if(draws, [](const DrawContext& draw) { return !draw.is_clear(); });
   return book_.finish(cycles, static_cast<std::size_t>(count));

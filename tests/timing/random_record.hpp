@@ -1,0 +1,54 @@
+/// Random packet streams for tests of time.
+#pragma once
+
+#include <cstdint>
+
+#include "halfspace/timing/record/frame_record.hpp"
+#include "random_machine.hpp"
+
+namespace halfspace::testing {
+
+/// Packets as no frame has them: walks, draws and gaps of all lengths.
+inline FrameRecord random_record(Random& random, const Config& config) {
+  FrameRecord record;
+  record.config = config;
+  record.surfaces.push_back({.tiles_x = 16, .tiles = 256, .sample_bytes = pick(random, {2u, 4u})});
+  const int most_quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
+  const std::uint32_t most_steps = pick(random, {1u, 3u, 40u, 500u});
+  const auto count = [&](std::uint32_t few, std::uint32_t many) {
+    return static_cast<std::uint32_t>(random.between(0, random.between(0, 3) == 0 ? many : few));
+  };
+  PacketStream& packets = record.packets;
+  for (auto segments = random.between(1, 12); segments > 0; --segments) {
+    StreamSegment segment{.surface = 0, .dropped_after = count(4, 300)};
+    if (config.z_cache.fast_clear && random.between(0, 4) == 0) {
+      packets.segments.push_back({.kind = StreamSegment::Kind::kFastClear, .surface = 0});
+      continue;
+    }
+    segment.kind = random.between(0, 4) == 0 ? StreamSegment::Kind::kDrawnClear : StreamSegment::Kind::kDraw;
+    segment.touches_depth = random.between(0, 4) != 0 ? 1 : 0;
+    segment.triangles = count(10, 100);
+    const std::int64_t local = random.between(0, 15);  // bursts stay in so many columns
+    for (std::uint32_t i = 0; i < segment.triangles; ++i) {
+      const StreamTriangle triangle{
+          .dropped_before = count(2, 50), .jobs = count(4, 60), .steps_after = count(0, most_steps)};
+      packets.triangles.push_back(triangle);
+      for (std::uint32_t k = 0; k < triangle.jobs; ++k) {
+        const auto quads = static_cast<int>(random.between(0, 2) == 0 ? 0 : random.between(1, most_quads));
+        packets.jobs.emplace_back(1 + count(1, most_steps - 1), quads);
+        if (quads != 0 && segment.touches_depth != 0) {
+          const auto bands =
+              static_cast<std::int64_t>((1u << stream_bands(config.tile_walker.tile_size)) - 1);
+          const auto touched = static_cast<std::uint8_t>(random.between(1, bands));
+          packets.accesses.emplace_back(
+              static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched,
+              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))));
+        }
+      }
+    }
+    packets.segments.push_back(segment);
+  }
+  return record;
+}
+
+}  // namespace halfspace::testing
