@@ -63,7 +63,7 @@ class Batch {
       }
       NarrowVector strange[3];
       corners(chunk_.strange, strange);
-      return is_zero(strange);
+      return find_away(strange);
     }
     const auto* const index = reinterpret_cast<const std::int32_t*>(task_.indices) + std::size_t{first} * 3;
     NarrowVector vertex[3];
@@ -82,12 +82,22 @@ class Batch {
     }
     NarrowVector strange[3];
     gather(chunk_.strange, strange);
-    return is_zero(strange);
+    return find_away(strange);
   }
 
-  static HWY_INLINE bool is_zero(const NarrowVector* v) {
+  /// Triangles that are clipped away as a whole: all vertices are outside the first plane that one is outside
+  /// of. False where others than these have a strange vertex.
+  HWY_INLINE bool find_away(const NarrowVector* strange) {
     const Narrow narrow;
-    return hn::AllTrue(narrow, hn::Eq(hn::Or(v[0], hn::Or(v[1], v[2])), hn::Zero(narrow)));
+    const NarrowVector zero = hn::Zero(narrow);
+    const NarrowVector some = hn::Or(strange[0], hn::Or(strange[1], strange[2]));
+    const NarrowVector all = hn::And(strange[0], hn::And(strange[1], strange[2]));
+    const NarrowVector planes = hn::And(some, hn::Set(narrow, VertexChunk::kPlanes));
+    const NarrowVector first = hn::And(planes, hn::Neg(planes));
+    const auto finite = hn::Eq(hn::And(some, hn::Set(narrow, VertexChunk::kNotFinite)), zero);
+    const unsigned away = lane_bits(narrow, hn::And(finite, hn::Ne(hn::And(all, first), zero)));
+    away_ = away;
+    return (lane_bits(narrow, hn::Eq(some, zero)) | away) == kAllTriangles;
   }
 
   bool set_up(std::uint32_t first, SetUpTriangles& out, FrontEndCounters& front_end,
@@ -99,12 +109,11 @@ class Batch {
     const WideLanes zero = hn::Zero(wide);
     const WideLanes area = hn::Sub(product(hn::Sub(x_[1], x_[0]), hn::Sub(y_[2], y_[0])),
                                    product(hn::Sub(x_[2], x_[0]), hn::Sub(y_[1], y_[0])));
-    const unsigned flat = lane_bits(wide, hn::Eq(area, zero));
+    const unsigned here = kAllTriangles & ~away_;
+    const unsigned flat = lane_bits(wide, hn::Eq(area, zero)) & here;
     const unsigned negative_area = lane_bits(wide, hn::Lt(area, zero));
-    const unsigned front =
-        (state.front_positive_area ? ~negative_area : negative_area) & kAllTriangles & ~flat;
-    const unsigned culled =
-        ((state.cull_front ? front : 0) | (state.cull_back ? kAllTriangles & ~front : 0)) & ~flat;
+    const unsigned front = (state.front_positive_area ? ~negative_area : negative_area) & here & ~flat;
+    const unsigned culled = ((state.cull_front ? front : 0) | (state.cull_back ? here & ~front : 0)) & ~flat;
 
     const auto half = [&](std::int32_t add) { return hn::Set(narrow, (1 << (s - 1)) + add); };
     const NarrowVector x_min = hn::Min(x_[0], hn::Min(x_[1], x_[2]));
@@ -116,7 +125,7 @@ class Batch {
     NarrowVector x_last = hn::ShiftRightSame(hn::Sub(x_max, half(0)), s);
     NarrowVector y_last = hn::ShiftRightSame(hn::Sub(y_max, half(0)), s);
     const auto empty = [&] {
-      return lane_bits(narrow, hn::Or(hn::Lt(x_last, x_first), hn::Lt(y_last, y_first)));
+      return lane_bits(narrow, hn::Or(hn::Lt(x_last, x_first), hn::Lt(y_last, y_first))) & here;
     };
     const unsigned no_sample = empty() & ~(flat | culled);
     x_first = hn::Max(x_first, hn::Set(narrow, state.bounds.x_first));
@@ -124,7 +133,7 @@ class Batch {
     x_last = hn::Min(x_last, hn::Set(narrow, state.bounds.x_last));
     y_last = hn::Min(y_last, hn::Set(narrow, state.bounds.y_last));
     const unsigned outside = empty() & ~(flat | culled | no_sample);
-    const unsigned drawn = kAllTriangles & ~(flat | culled | no_sample | outside);
+    const unsigned drawn = here & ~(flat | culled | no_sample | outside);
 
     const NarrowVector extent = hn::Add(hn::Sub(x_max, x_min), hn::Sub(y_max, y_min));
     if ((drawn & lane_bits(narrow, hn::Gt(extent, hn::Set(narrow, task_.most_extent)))) != 0) {
@@ -135,8 +144,9 @@ class Batch {
       return false;
     }
     front_end.triangles += kTriangles;
-    front_end.emitted += kTriangles;
-    counters.triangles += kTriangles;
+    front_end.emitted += ones(here);
+    front_end.clipped_away += ones(away_);
+    counters.triangles += ones(here);
     counters.zero_area += ones(flat);
     counters.culled += ones(culled);
     counters.no_sample += ones(no_sample);
@@ -173,6 +183,20 @@ class Batch {
     return {.halves = hn::LoadMaskBits(Keep::Halves(), bytes(twice)),
             .lanes = hn::LoadMaskBits(Narrow(), bytes(drawn)),
             .at = out.count};
+  }
+
+  /// Setup does not see those that are clipped away.
+  HWY_INLINE NarrowVector order(std::int32_t seen) const {
+    const Narrow narrow;
+    if (HWY_LIKELY(away_ == 0)) {
+      return hn::Iota(narrow, seen);
+    }
+    alignas(64) std::int32_t number[kTriangles];
+    for (std::size_t i = 0; i < kTriangles; ++i) {
+      number[i] = seen;
+      seen += (away_ >> i & 1) != 0 ? 0 : 1;
+    }
+    return hn::Load(narrow, number);
   }
 
   // Vectors one by one: arrays of them would be copied by the byte.
@@ -247,7 +271,7 @@ class Batch {
     kept.put(bounds[2], out.x_last);
     kept.put(bounds[3], out.y_last);
     kept.put(hn::Iota(narrow, static_cast<std::int32_t>(first)), out.number);
-    kept.put(hn::Iota(narrow, static_cast<std::int32_t>(seen)), out.order);
+    kept.put(order(static_cast<std::int32_t>(seen)), out.order);
     out.count += static_cast<std::size_t>(std::popcount(drawn));
     return true;
   }
@@ -428,6 +452,7 @@ class Batch {
   NarrowVector x_[3];
   NarrowVector y_[3];
   NarrowVector z_[3];
+  unsigned away_ = 0;  ///< triangles that are clipped away
 };
 
 /// See set_up (front_end_task.hpp).

@@ -20,11 +20,14 @@ struct VertexChunk {
   std::uint32_t end = 0;
   std::uint32_t lowest = 0;           ///< number of the first vertex
   bool in_order = false;              ///< each triangle has the next three, else those that its indices say
-  bool some_strange = false;          ///< a vertex is not for vectors
+  bool some_strange = false;          ///< a vertex is not for vectors, as it is
   alignas(64) Field<std::int32_t> x;  ///< in 1/2^SubPixelBits pixel
   alignas(64) Field<std::int32_t> y;
-  alignas(64) Field<std::int32_t> z;  ///< vertex depth
-  alignas(64) Field<std::int32_t> strange;
+  alignas(64) Field<std::int32_t> z;        ///< vertex depth
+  alignas(64) Field<std::int32_t> strange;  ///< bit i: outside the i-th plane of the front end; and these
+  static constexpr std::int32_t kPlanes = 0x3F;
+  static constexpr std::int32_t kNotFinite = 0x40;
+  static constexpr std::int32_t kOdd = 0x80;         ///< else not for vectors
   std::array<glm::vec4, kMostVertices + 64> copied;  ///< where the draw has them far apart
 };
 

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "halfspace/fast/front_end_task.hpp"
@@ -78,13 +79,18 @@ class VertexTransform {
     const RealVector y = hn::PromoteTo(real, ys);
     const RealVector z = hn::PromoteTo(real, zs);
     const RealVector w = hn::PromoteTo(real, ws);
-    auto strange = hn::Or(hn::Not(hn::Gt(w, zero)), hn::Ne(hn::PromoteTo(real, nothing), zero));
+    const auto not_finite = hn::Ne(hn::PromoteTo(real, nothing), zero);
+    auto odd = hn::Not(hn::Gt(w, zero));
+    // As FrontEnd has the planes, in its order and with its rounding.
+    hn::Mask<Real> outside[6];
+    std::size_t planes = 0;
     if (task_.clips_depth) {
-      strange = hn::Or(strange, hn::Lt(task_.symmetric ? hn::Add(z, w) : z, zero));
-      strange = hn::Or(strange, hn::Lt(hn::Sub(w, z), zero));
+      outside[planes++] = hn::Lt(task_.symmetric ? hn::Add(z, w) : z, zero);
+      outside[planes++] = hn::Lt(hn::Sub(w, z), zero);
     }
-    strange = hn::Or(strange, hn::Or(beyond(task_.x_half, x, w, task_.x_centre),
-                                     beyond(task_.y_half, y, w, task_.y_centre)));
+    beyond(task_.x_half, x, w, task_.x_centre, outside + planes);
+    beyond(task_.y_half, y, w, task_.y_centre, outside + planes + 2);
+    planes += 4;
     const bool is_window = hn::AllTrue(single, hn::Eq(ws, hn::Set(single, 1.0F)));
     const auto over_w = [&](RealVector v) HWY_ATTR { return is_window ? v : hn::Div(v, w); };
     hn::Store(snapped(over_w(x), task_.viewport_x, task_.viewport_width), narrow, out.x.data() + at);
@@ -95,12 +101,29 @@ class VertexTransform {
       if (task_.clips_depth) {
         depth = hn::Min(hn::Max(depth, hn::Set(real, task_.z_least)), hn::Set(real, task_.z_most));
       }
-      strange = hn::Or(strange, hn::Or(hn::Lt(depth, zero), hn::Gt(depth, hn::Set(real, 1.0))));
+      odd = hn::Or(odd, hn::Or(hn::Lt(depth, zero), hn::Gt(depth, hn::Set(real, 1.0))));
       hn::Store(vertex_depth(depth), narrow, out.z.data() + at);
     }
-    const auto flag = hn::IfThenElseZero(hn::RebindMask(Wide(), strange), hn::Set(Wide(), std::int64_t{1}));
-    hn::Store(hn::DemoteTo(narrow, hn::ConvertTo(real, flag)), narrow, out.strange.data() + at);
+    auto strange = hn::Or(odd, not_finite);
+    for (std::size_t i = 0; i < planes; ++i) {
+      strange = hn::Or(strange, outside[i]);
+    }
+    std::int32_t* const flags = out.strange.data() + at;
+    hn::Store(hn::Zero(narrow), narrow, flags);
+    if (HWY_UNLIKELY(!hn::AllFalse(real, strange))) {
+      add_flag(VertexChunk::kNotFinite, not_finite, flags);
+      add_flag(VertexChunk::kOdd, odd, flags);
+      for (std::size_t i = 0; i < planes; ++i) {
+        add_flag(1 << i, outside[i], flags);
+      }
+    }
     return strange;
+  }
+
+  static void add_flag(std::int32_t flag, hn::Mask<Real> lanes, std::int32_t* flags) {
+    for (unsigned left = lane_bits(Real(), lanes); left != 0; left &= left - 1) {
+      flags[std::countr_zero(left)] |= flag;
+    }
   }
 
   /// As vertex_depth_code.
@@ -112,14 +135,16 @@ class VertexTransform {
     return hn::DemoteTo(Narrow(), hn::Round(hn::Mul(depth, hn::Set(Real(), task_.depth_one))));
   }
 
-  /// Outside the planes of the guard band.
-  static HWY_INLINE hn::Mask<Real> beyond(double half, RealVector at, RealVector w, double centre) {
+  /// Outside the two planes of the guard band.
+  static HWY_INLINE void beyond(double half, RealVector at, RealVector w, double centre,
+                                hn::Mask<Real>* outside) {
     const Real real;
     const RealVector zero = hn::Zero(real);
     const RealVector scaled = hn::Mul(hn::Set(real, half), at);
     const RealVector above = hn::Add(scaled, hn::Mul(hn::Set(real, FrontEndTask::kGuardBand + centre), w));
     const RealVector below = hn::Sub(hn::Mul(hn::Set(real, FrontEndTask::kGuardBand - centre), w), scaled);
-    return hn::Or(hn::Lt(above, zero), hn::Lt(below, zero));
+    outside[0] = hn::Lt(above, zero);
+    outside[1] = hn::Lt(below, zero);
   }
 
   /// Window coordinates on the grid of sub-pixels.
