@@ -47,8 +47,7 @@ class EarlyZ {
         flip_(state_.func == DepthFunc::kGreater || state_.func == DepthFunc::kGequal ? -1 : 0),
         inclusive_(state_.func == DepthFunc::kLequal || state_.func == DepthFunc::kGequal ? 1 : 0),
         touches_depth_(touches_depth(task.draw->early_z)),
-        counts_parts_(touches_depth_ && (task.z_parts > 1 || task.tile_cache != nullptr)),
-        watches_(task.counts_pixels || task.draw->keeps_visible) {}
+        counts_parts_(touches_depth_ && (task.z_parts > 1 || task.tile_cache != nullptr)) {}
 
   /// `masks`: of the partial tiles.
   HWY_INLINE void visit(const Visit& visit, const std::uint64_t* masks) {
@@ -56,9 +55,7 @@ class EarlyZ {
     begin(visit);
     Passed passed;
     if (visit.triangle->kind == DepthKind::kNone) {
-      if (watches_) {
-        show_whole(visit.whole, visit.whole);
-      }
+      decided_whole(visit.whole, visit.whole);
       tallies_.survivors += ones(visit.whole) * kSamples;
       passed.some =
           visit.whole | partial_tiles(visit.partial, masks, [](int, std::uint64_t mask) { return mask; });
@@ -112,12 +109,25 @@ class EarlyZ {
   /// A tile has been tested.
   HWY_INLINE void tested(int lane, std::uint64_t mask, std::uint64_t passed) {
     tallies_.survivors += ones(passed);
+    note(lane, mask, passed);
+    if (task_.counts_pixels) {
+      const int x = tile_x(lane);
+      const int y = tile_y(lane);
+      count_pixels(mask, task_.surface->fragments.tile(x, y));
+      if (passed != 0) {
+        count_pixels(passed, task_.surface->survivors.tile(x, y));
+      }
+    }
+  }
+
+  /// What the z cache and who watches must know of a tile.
+  HWY_INLINE void note(int lane, std::uint64_t mask, std::uint64_t passed) {
     if (counts_parts_) {
       touched_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{mask}}, task_.z_parts);
       written_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{passed}}, task_.z_parts);
     }
-    if (watches_) {
-      show(lane, mask, passed);
+    if (draw_.keeps_visible && passed != 0) {
+      show(lane, passed);
     }
   }
 
@@ -137,9 +147,7 @@ class EarlyZ {
       become_plane(t, result.whole, range);
     }
     tallies_.survivors += ones(result.whole) * kSamples;
-    if (watches_ || counts_parts_) {
-      show_whole(whole & (killed | result.whole), result.whole);
-    }
+    decided_whole(whole & (killed | result.whole), result.whole);
     result.some = result.whole;
     for (std::uint32_t open = whole & ~(killed | result.whole); open != 0; open &= open - 1) {
       const std::uint64_t all = kAll;
@@ -158,13 +166,29 @@ class EarlyZ {
     return result;
   }
 
-  void show_whole(std::uint32_t tiles, std::uint32_t passed) {
-    const std::uint64_t survivors = tallies_.survivors;
+  /// Tiles that are covered whole, and all of whose samples die, or pass.
+  HWY_INLINE void decided_whole(std::uint32_t tiles, std::uint32_t passed) {
+    if (task_.counts_pixels && tiles != 0) {
+      tiles_->open_counts(block_);
+      count_tiles_whole(tiles, tiles_->whole_fragments.get() + at_);
+      count_tiles_whole(passed, tiles_->whole_survivors.get() + at_);
+    }
+    if (!draw_.keeps_visible && !counts_parts_) {
+      return;
+    }
     for (std::uint32_t left = tiles; left != 0; left &= left - 1) {
       const int lane = std::countr_zero(left);
-      tested(lane, kAll, (passed >> lane & 1) != 0 ? kAll : 0);
+      note(lane, kAll, (passed >> lane & 1) != 0 ? kAll : 0);
     }
-    tallies_.survivors = survivors;  // counted already
+  }
+
+  /// Adds 1 to each of the pixels of tiles, when the counts are put together.
+  static HWY_INLINE void count_tiles_whole(std::uint32_t lanes, std::int32_t* counts) {
+    const Tag tag;
+    for (int i = 0; i < kLanes; i += kWidth) {
+      const Vector count = hn::Load(tag, counts + i);
+      hn::Store(hn::Add(count, hn::IfThenElseZero(mask_of(lanes >> i), set(1))), tag, counts + i);
+    }
   }
 
   /// The codes of tiles are those of the triangle's plane.
@@ -337,23 +361,15 @@ class EarlyZ {
     }
   }
 
-  // ---- what watches ----
+  // ---- who watches ----
 
-  void show(int lane, std::uint64_t mask, std::uint64_t passed) {
-    const int x = tile_x(lane);
-    const int y = tile_y(lane);
-    if (task_.counts_pixels) {
-      count_pixels(mask, task_.surface->fragments.tile(x, y));
-      if (passed != 0) {
-        count_pixels(passed, task_.surface->survivors.tile(x, y));
-      }
-    }
-    if (draw_.keeps_visible && passed != 0) {
-      const std::uint32_t shown = draw_.is_clear() ? kNothingVisible : draw_.first_triangle + number_;
-      auto* const visible = reinterpret_cast<std::int32_t*>(task_.surface->visible.tile(x, y));
-      for (int i = 0; i < kSamples; i += kWidth) {
-        hn::BlendedStore(set(shown), mask_of(passed >> i), Tag(), visible + i);
-      }
+  /// The triangle is seen at samples.
+  void show(int lane, std::uint64_t passed) {
+    const std::uint32_t shown = draw_.is_clear() ? kNothingVisible : draw_.first_triangle + number_;
+    auto* const visible =
+        reinterpret_cast<std::int32_t*>(task_.surface->visible.tile(tile_x(lane), tile_y(lane)));
+    for (int i = 0; i < kSamples; i += kWidth) {
+      hn::BlendedStore(set(shown), mask_of(passed >> i), Tag(), visible + i);
     }
   }
 
@@ -385,7 +401,6 @@ class EarlyZ {
   const std::int32_t inclusive_;
   const bool touches_depth_;
   const bool counts_parts_;  ///< of a tile, where it is not one line of a BlockCache
-  const bool watches_;
 
   // Of the visit.
   int first_x_ = 0;  ///< tile of lane 0

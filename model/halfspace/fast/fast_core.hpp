@@ -31,7 +31,8 @@ class FastCore {
   void run(const Frame& frame);
   /// Counters of the last run.
   [[nodiscard]] const Counters& counters() const;
-  /// The result of the last run, which is then gone. Makes the depth codes that nobody has looked at so far.
+  /// The result of the last run, which is then gone. Makes the depth codes that nobody has looked at so far,
+  /// and the counts of pixels.
   FrameResult take();
 
  private:

@@ -20,6 +20,7 @@ void reset(Surface& surface, SurfaceTiles& tiles) {
   const PixelRect all{.x_last = surface.codes.width() - 1, .y_last = surface.codes.height() - 1};
   surface.codes.fill(all, largest_code(surface.format));
   tiles.clear(largest_code(surface.format));
+  tiles.begin_frame();
   if (!surface.fragments.empty()) {
     surface.fragments.fill(all, 0);
     surface.survivors.fill(all, 0);
@@ -111,6 +112,9 @@ std::uint32_t FrameMemory::lines() const {
 std::vector<Surface> FrameMemory::take() {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     resolve(config.tile_walker.tile_size, config.raster.sub_pixel_bits, {}, surfaces[i], tiles[i]);
+    if (!surfaces[i].fragments.empty()) {
+      tiles[i].put_counts(surfaces[i].fragments, surfaces[i].survivors);
+    }
   }
   tiles.clear();
   shape_.clear();

@@ -29,7 +29,7 @@ struct FrameMemory {
   std::vector<ZFlush> flush();
   /// Lines of memory that all surfaces take, as a stream numbers them.
   [[nodiscard]] std::uint32_t lines() const;
-  /// Makes the codes of all tiles, and gives the surfaces away.
+  /// Makes the codes and counts of all pixels, and gives the surfaces away.
   std::vector<Surface> take();
 
   const Config config;

@@ -107,8 +107,18 @@ class Small {
       if (state_.test) {
         task_.tiles->open(static_cast<std::uint32_t>(found_.block[q][lane]));
         const int y = in_->y_first[first_ + lane] & ~1;
-        prefetch(task_.surface->codes.tile(static_cast<std::size_t>(found_.tile[q][lane])),
-                 y + std::countr_zero(mask) / Side, y + (63 - std::countl_zero(mask)) / Side);
+        const auto tile = static_cast<std::size_t>(found_.tile[q][lane]);
+        const int first_y = y + std::countr_zero(mask) / Side;
+        const int last_y = y + (63 - std::countl_zero(mask)) / Side;
+        const auto at = static_cast<std::size_t>(found_.at[q][lane]);
+        hwy::Prefetch(task_.tiles->plane.get() + at);
+        hwy::Prefetch(task_.tiles->z_min.get() + at);
+        hwy::Prefetch(task_.tiles->z_max.get() + at);
+        prefetch(task_.surface->codes.tile(tile), first_y, last_y);
+        if (task_.counts_pixels) {
+          prefetch(task_.surface->fragments.tile(tile), first_y, last_y);
+          prefetch(task_.surface->survivors.tile(tile), first_y, last_y);
+        }
       }
     });
   }
@@ -124,8 +134,9 @@ class Small {
   }
 
   /// The lines of the processor's cache that hold rows of a tile.
-  static HWY_INLINE void prefetch(const std::uint32_t* tile, int first_y, int last_y) {
-    constexpr int kLineSamples = 16;
+  template <class Value>
+  static HWY_INLINE void prefetch(const Value* tile, int first_y, int last_y) {
+    constexpr int kLineSamples = 64 / static_cast<int>(sizeof(Value));
     const int last = (last_y & (TileSize - 1)) * TileSize / kLineSamples;
     for (int line = (first_y & (TileSize - 1)) * TileSize / kLineSamples; line <= last; ++line) {
       hwy::Prefetch(tile + line * kLineSamples);

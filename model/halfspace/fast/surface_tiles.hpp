@@ -40,6 +40,17 @@ struct SurfaceTiles {
     }
   }
 
+  /// Before the counts of a block's tiles are added to.
+  void open_counts(std::uint32_t number) {
+    if (counted[number] != frame) [[unlikely]] {
+      start_counts(number);
+    }
+  }
+  /// Adds the counts of tiles to those of their pixels, up to the largest value.
+  void put_counts(TiledImage<std::uint16_t>& fragments, TiledImage<std::uint16_t>& survivors) const;
+  /// A frame begins: nothing is counted.
+  void begin_frame();
+
   /// Block (x, y), in blocks. Those of a thread's columns lie together, so that no two threads write to the
   /// same line of the processor's cache.
   [[nodiscard]] std::uint32_t block(std::uint32_t x, std::uint32_t y) const {
@@ -92,7 +103,12 @@ struct SurfaceTiles {
   LazyArray<std::uint32_t> plane;  ///< its number, or kResolved
   LazyArray<std::uint8_t> opened;  ///< by block: the epoch in which it was
   std::uint8_t epoch = 0;          ///< counts clears
-  std::int32_t cleared_to = 0;     ///< what blocks are that have not been opened since
+  // Of pixels, what is the same for all of a tile; clears leave it.
+  LazyArray<std::int32_t> whole_fragments;
+  LazyArray<std::int32_t> whole_survivors;
+  LazyArray<std::uint8_t> counted;  ///< by block: the frame in which it was
+  std::uint8_t frame = 1;           ///< counts frames
+  std::int32_t cleared_to = 0;      ///< what blocks are that have not been opened since
   std::vector<PlaneList> lists;
 
  private:
@@ -100,6 +116,7 @@ struct SurfaceTiles {
   static constexpr std::uint32_t kInList = (1u << kListShift) - 1;
 
   void start(std::uint32_t number);
+  void start_counts(std::uint32_t number);
 };
 
 }  // namespace halfspace::fast

@@ -53,6 +53,7 @@ class Walk {
         stream_(task.stream),
         columns_(task.columns),
         surface_(task.surface),
+        counts_pixels_(task.counts_pixels),
         tiles_(task.tiles),
         func_(task.draw->early_z.func),
         is_float_(task.draw->early_z.format == DepthFormat::kFloat32),
@@ -332,6 +333,10 @@ class Walk {
       if ((looked_at >> i & 1) != 0) {
         prefetch(surface_->codes.tile(first_x + column, first_y + row), mask);
       }
+      if (counts_pixels_) {
+        prefetch(surface_->fragments.tile(first_x + column, first_y + row), mask);
+        prefetch(surface_->survivors.tile(first_x + column, first_y + row), mask);
+      }
     }
     counters_.edge_evaluator.tiles_empty +=
         static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
@@ -392,13 +397,14 @@ class Walk {
   }
 
   /// The lines of the processor's cache, two rows of a tile each, that hold samples of the mask.
-  static HWY_INLINE void prefetch(const std::uint32_t* codes, std::uint64_t mask) {
-    constexpr int kLineSamples = 16;
+  template <class Value>
+  static HWY_INLINE void prefetch(const Value* tile, std::uint64_t mask) {
+    constexpr int kLineSamples = 64 / static_cast<int>(sizeof(Value));
     const int first = std::countr_zero(mask) / kLineSamples;
     const int last = (63 - std::countl_zero(mask)) / kLineSamples;
-    hwy::Prefetch(codes + first * kLineSamples);
+    hwy::Prefetch(tile + first * kLineSamples);
     for (int line = first + 1; line <= last; ++line) {
-      hwy::Prefetch(codes + line * kLineSamples);
+      hwy::Prefetch(tile + line * kLineSamples);
     }
   }
 
@@ -445,6 +451,7 @@ class Walk {
   StreamWriter* const stream_;
   const Columns columns_;
   Surface* const surface_;
+  const bool counts_pixels_;
   SurfaceTiles* const tiles_;
   const DepthFunc func_;
   const bool is_float_;

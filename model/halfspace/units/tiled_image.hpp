@@ -48,6 +48,7 @@ class TiledImage {
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int tile_size() const { return tile_size_; }
   [[nodiscard]] int tiles_x() const { return tiles_x_; }
   [[nodiscard]] int tiles_y() const { return tiles_y_; }
   [[nodiscard]] bool empty() const { return tiles() == 0; }
