@@ -38,8 +38,8 @@ std::uint32_t FrameMemory::useful_threads(const Config& config, const Watch& wat
   if (!BlockCache::takes(shape, shift)) {
     return 1;
   }
-  return std::bit_floor(std::min(
-      {static_cast<std::uint32_t>(watch.threads), Columns::kMost, BlockCache::columns(shape, shift)}));
+  return std::bit_floor(std::min({static_cast<std::uint32_t>(std::max(watch.threads, 1)), Columns::kMost,
+                                  BlockCache::columns(shape, shift)}));
 }
 
 FrameMemory::FrameMemory(const Config& on, const Watch& seen, std::uint32_t drawing)
