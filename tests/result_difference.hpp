@@ -50,6 +50,7 @@ inline std::string result_difference(const FrameResult& ours, const FrameResult&
     text += image_difference(name + "fragments", ours.surfaces[i].fragments, other.surfaces[i].fragments);
     text += image_difference(name + "survivors", ours.surfaces[i].survivors, other.surfaces[i].survivors);
     text += image_difference(name + "visible", ours.surfaces[i].visible, other.surfaces[i].visible);
+    text += difference(name + "sums", ours.surfaces[i].sums, other.surfaces[i].sums);
     text += counter_difference(name, ours.surfaces[i].counters, other.surfaces[i].counters);
   }
   for (std::size_t i = 0; text.empty() && i < ours.draws.size(); ++i) {

@@ -151,8 +151,9 @@ class Bench {
       pipeline = tb::with_fault(std::move(pipeline), fault_, options_.fault_at);
     }
     const auto engine = [&](Events& events) {
-      return EngineOptions{
-          .watch = {.keep_visible = true, .observer = &events}, .stalls = stalls, .packet_times = true};
+      return EngineOptions{.watch = {.keep_visible = true, .keep_sums = true, .observer = &events},
+                           .stalls = stalls,
+                           .packet_times = true};
     };
     Events events;
     const auto start = std::chrono::steady_clock::now();

@@ -15,7 +15,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   config.tile_walker.block_size = model.block_size;
   config.tile_walker.block_level = model.block_level;
   FrameResult result;
-  result.surfaces = make_surfaces(frame, config.tile_walker.tile_size, Watch{.count_pixels = false});
+  result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);
   std::deque<DrawContext> draws;
   FrameSource source(frame, config, nullptr, result.surfaces, result, draws);

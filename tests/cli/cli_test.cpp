@@ -78,7 +78,7 @@ TEST_CASE("run: replaces an earlier result, refuses any other folder, leaves not
 TEST_CASE("run: both cores write the same files") {
   const Place place;
   for (const char* frame : {"vkcube.ptf.xz", "cc0_truck.ptf.xz"}) {
-    const std::string run = "run " + scene(frame) + " --no-pictures --out " + place.path.string();
+    const std::string run = "run " + scene(frame) + " --out " + place.path.string();
     REQUIRE(place.run(run + "/a --core fast").status == 0);
     REQUIRE(place.run(run + "/b --core readable").status == 0);
     for (const std::string& name : entries(place.path / "a")) {
@@ -106,6 +106,18 @@ TEST_CASE("run: the core is one that there is, of a fidelity that has one, and c
   check_error(place.run(run + "--core fast --fidelity recurrence --timeline --no-pictures --out " +
                         (place.path / "results").string()),
               {"core is 'fast'", "a timeline"});
+  check_error(place.run(run + "--core fast --quads --out " + place.path.string() + "/quads"),
+              {"core is 'fast'", "packets are recorded"});
+}
+
+TEST_CASE("record: both cores write the same file") {
+  const Place place;
+  const fs::path file = place.path / "packets.rec";
+  const std::string record = "record " + scene("cc0_truck.ptf.xz") + " --out " + file.string() + " --core ";
+  REQUIRE(place.run(record + "fast").status == 0);
+  const std::string ours = slurp(file);
+  REQUIRE(place.run(record + "readable").status == 0);
+  CHECK(ours == slurp(file));
 }
 
 TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {

@@ -5,6 +5,7 @@
 
 #include "../result_difference.hpp"
 #include "../timing/random_machine.hpp"
+#include "../timing/record_difference.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/fast/fast_core.hpp"
 #include "halfspace/machine/in_order.hpp"
@@ -138,8 +139,10 @@ std::string core_difference(const Frame& frame, const Config& config, const Watc
          difference(ours.cycles, other.cycles);
 }
 
-/// Frames and machines at random, `runs` of them, on every instruction set in turn.
-void compare_cores(std::uint64_t runs, bool with_time) {
+/// Frames and machines at random, `runs` of them, on every instruction set in turn: difference(frame, config,
+/// random) must be empty.
+template <class Difference>
+void compare_cores(std::uint64_t runs, const Difference& difference) {
   Random random(seed());
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   std::uint64_t covered = 0;
@@ -148,32 +151,46 @@ void compare_cores(std::uint64_t runs, bool with_time) {
     CAPTURE(seed(), run, hwy::TargetName(target));
     const Config config = random_config(random);
     const Frame frame = hard_frame(random);
-    const Watch watch{.keep_visible = random.between(0, 1) == 0,
-                      .count_pixels = random.between(0, 3) != 0,
-                      .threads = pick(random, {1, 1, 2, 3, 8})};
-    if (!fast::gap(config, watch, nullptr).empty()) {
+    if (!fast::gap(config, {}, nullptr).empty()) {
       continue;
     }
     ++covered;
     INFO(difference_from_default(config));
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    const StallPlan stalls = random.between(0, 1) == 0 ? StallPlan{} : random_stalls(random);
-    REQUIRE(core_difference(frame, config, watch, with_time ? &stalls : nullptr) == "");
+    REQUIRE(difference(frame, config, random) == "");
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   CHECK(covered > runs / 4);
 }
 
+Watch random_watch(Random& random) {
+  return {.keep_visible = random.between(0, 1) == 0,
+          .count_pixels = random.between(0, 3) != 0,
+          .keep_sums = random.between(0, 3) == 0,
+          .threads = pick(random, {1, 1, 2, 3, 8})};
+}
+
 }  // namespace
 
 TEST_CASE("fast core: what the units make of random frames on random machines", "[property]") {
-  compare_cores(frames(), false);
+  compare_cores(frames(), [](const Frame& frame, const Config& config, Random& random) {
+    return core_difference(frame, config, random_watch(random), nullptr);
+  });
 }
 
 TEST_CASE("fast core: time as the units have it, of random frames on random machines", "[property]") {
-  compare_cores(frames() / 5, true);
+  compare_cores(frames() / 5, [](const Frame& frame, const Config& config, Random& random) {
+    const StallPlan stalls = random.between(0, 1) == 0 ? StallPlan{} : random_stalls(random);
+    return core_difference(frame, config, random_watch(random), &stalls);
+  });
+}
+
+TEST_CASE("fast core: records as the units make them, of random frames on random machines", "[property]") {
+  compare_cores(frames() / 5, [](const Frame& frame, const Config& config, Random& /*random*/) {
+    return record_difference(frame, config);
+  });
 }
 
 TEST_CASE("fast core: planes that touch in a sample, their first vertices far away", "[property]") {
@@ -203,7 +220,7 @@ TEST_CASE("fast core: windows that a scissor cuts out, in every size of tile and
 TEST_CASE("fast core: memory of the frame before leaves no trace", "[property]") {
   Random random(seed() + 1);
   const Config config;
-  const Watch watch{.keep_visible = true, .threads = 2};
+  const Watch watch{.keep_visible = true, .keep_sums = GENERATE(false, true), .threads = 2};
   fast::FastCore core(config, watch);
   for (std::uint64_t run = 0; run < frames() / 20; ++run) {
     CAPTURE(seed(), run);

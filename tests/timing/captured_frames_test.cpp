@@ -7,10 +7,12 @@
 
 #include "../result_difference.hpp"
 #include "halfspace/core/functional.hpp"
+#include "halfspace/fast/fast_core.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
+#include "record_difference.hpp"
 
 using namespace halfspace;
 namespace fs = std::filesystem;
@@ -68,9 +70,9 @@ void check_frame(const std::string& name) {
     const Config config = read_config(fs::path(HALFSPACE_CONFIGS) / (std::string(machine) + ".toml"));
     validate(config);
     const FrameResult functional = run_functional(frame, config);
-    const Watch visible{.keep_visible = true};
-    const Watch readable{.keep_visible = true, .core = Core::kReadable};
-    CHECK(halfspace::testing::result_difference(run_functional(frame, config, visible),
+    const Watch pictures{.keep_visible = true, .keep_sums = true};
+    const Watch readable{.keep_visible = true, .keep_sums = true, .core = Core::kReadable};
+    CHECK(halfspace::testing::result_difference(run_functional(frame, config, pictures),
                                                 run_functional(frame, config, readable)) == "");
     const EngineOptions options{.watch = {}, .stalls = {}, .packet_times = true};
     const TimedResult recurrence = run_recurrence(frame, config, options);
@@ -82,6 +84,9 @@ void check_frame(const std::string& name) {
     CHECK(same_image(systemc.frame, base));
     CHECK(same_counts(recurrence.frame.counters, functional.counters));
     CHECK(same_counts(systemc.frame.counters, functional.counters));
+    if (fast::gap(config, {}, nullptr).empty()) {
+      CHECK(halfspace::testing::record_difference(frame, config) == "");
+    }
     const RetimedFrame retimed = Retimer(record_frame(frame, config)).retime(config);
     CHECK(retimed.cycles == recurrence.cycles.cycles);
     std::cout << name << " on " << machine << ": " << recurrence.cycles.cycles << " cycles, "

@@ -99,6 +99,26 @@ std::string difference(const std::string& what, const TiledImage<Value>& ours,
                                        : difference(what, rows(ours), rows(other));
 }
 
+inline std::string difference(const std::string& what, const PacketSums& ours, const PacketSums& other) {
+  const auto numbers = [](const PacketSums& sums) {
+    std::vector<std::uint32_t> values;
+    for (int y = 0; y < sums.decisions.height(); ++y) {
+      for (int x = 0; x < sums.decisions.width(); ++x) {
+        const TileDecisions& tile = sums.decisions.at(x, y);
+        values.insert(values.end(), {tile.rejected, tile.accepted, tile.partial});
+      }
+    }
+    for (int y = 0; y < sums.quads.height(); ++y) {
+      for (int x = 0; x < sums.quads.width(); ++x) {
+        const QuadLanes& place = sums.quads.at(x, y);
+        values.insert(values.end(), {place.quads, place.covered});
+      }
+    }
+    return values;
+  };
+  return difference(what, numbers(ours), numbers(other));
+}
+
 inline std::string difference(const FrameResult& ours, const FrameResult& other) {
   std::string text;
   text += difference("surfaces", ours.surfaces.size(), other.surfaces.size());
@@ -108,6 +128,7 @@ inline std::string difference(const FrameResult& ours, const FrameResult& other)
     text += difference(surface + "fragments", ours.surfaces[i].fragments, other.surfaces[i].fragments);
     text += difference(surface + "survivors", ours.surfaces[i].survivors, other.surfaces[i].survivors);
     text += difference(surface + "visible", ours.surfaces[i].visible, other.surfaces[i].visible);
+    text += difference(surface + "sums", ours.surfaces[i].sums, other.surfaces[i].sums);
     text += difference(surface, ours.surfaces[i].counters, other.surfaces[i].counters);
   }
   text += difference("draws", ours.draws.size(), other.draws.size());

@@ -22,12 +22,13 @@ namespace {
 /// Runs the frame by all three engines; empty where nothing differs.
 std::string compare(const Frame& frame, const Config& config, const StallPlan& stalls) {
   Events functional_events;
-  const FrameResult functional =
-      run_functional(frame, config, {.keep_visible = true, .observer = &functional_events});
+  const FrameResult functional = run_functional(
+      frame, config, {.keep_visible = true, .keep_sums = true, .observer = &functional_events});
 
   const auto options = [&](Events& events) {
-    return EngineOptions{
-        .watch = {.keep_visible = true, .observer = &events}, .stalls = stalls, .packet_times = true};
+    return EngineOptions{.watch = {.keep_visible = true, .keep_sums = true, .observer = &events},
+                         .stalls = stalls,
+                         .packet_times = true};
   };
   Events events;
   const TimedResult systemc = run_systemc(frame, config, options(events));

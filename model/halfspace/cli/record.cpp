@@ -15,6 +15,7 @@ namespace {
 struct RecordOptions {
   InputOptions input;
   MachineOptions machine;
+  CoreOption core;
   std::string out;
 };
 
@@ -31,7 +32,8 @@ void record(const RecordOptions& options) {
   const Config config = options.machine.config();
   const Frame frame = options.input.frame();
   RecordObserver observer(frame.name);
-  const FrameRecord record = record_frame(frame, config, &observer);
+  const FrameRecord record = record_frame(
+      frame, config, {.count_pixels = false, .observer = &observer, .core = options.core.core()});
   write_record(options.out, record);
   const PacketStream& packets = record.packets;
   fmt::print("{}: {} triangles with {} tile jobs, {} bursts with depth; {} bytes in {}\n", record.name,
@@ -46,6 +48,7 @@ void add_record_command(CLI::App& app, int& /*status*/) {
   CLI::App* command = app.add_subcommand("record", "record the packets of a frame, for `halfspace retime`");
   options->input.add_to(*command);
   options->machine.add_to(*command);
+  options->core.add_to(*command);
   command->add_option("--out", options->out, "file to write")->type_name("RECORD")->required();
   command->callback([options] { record(*options); });
 }

@@ -52,7 +52,7 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
 class RunObserver final : public Recorder {
  public:
   RunObserver(const Frame& frame, const Config& config, const Options& options, const std::string& tile_jobs)
-      : Recorder(frame, config.tile_walker.tile_size, options), bar_(frame.name) {
+      : Recorder(options), bar_(frame.name) {
     if (!tile_jobs.empty()) {
       jobs_.emplace(tile_jobs, widths(config));
     }
@@ -89,7 +89,6 @@ int run_command(const RunCommand& command) {
   Recorder::Options record;
   if (!command.out.empty()) {
     folder.emplace(command.out);
-    record.sums = !command.no_pictures;
     if (command.quads) {
       record.quads = folder->file("quads.npy");
     }
@@ -102,8 +101,10 @@ int run_command(const RunCommand& command) {
     options.cycle_observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
   }
   RunObserver observer(frame, config, record, command.tile_jobs);
-  options.watch = {.keep_visible = record.sums,
+  const bool pictures = folder.has_value() && !command.no_pictures;
+  options.watch = {.keep_visible = pictures,
                    .count_pixels = folder.has_value(),
+                   .keep_sums = pictures,
                    .observer = &observer,
                    .core = command.core.core()};
   const RunResult result = run(fidelity, frame, config, options);
@@ -112,7 +113,7 @@ int run_command(const RunCommand& command) {
     timeline->finish(result.cycles->cycles);
   }
   if (folder) {
-    write_result_files(*folder, frame, config, fidelity, options.stalls, result, observer);
+    write_result_files(*folder, frame, config, fidelity, options.stalls, result);
     folder->commit();
   }
   const bool agree = print_result(frame, result);

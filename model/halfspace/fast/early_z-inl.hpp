@@ -31,6 +31,7 @@ class EarlyZ {
  public:
   static constexpr int kSamples = TileSize * TileSize;
   static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kSamples);
+  static constexpr int kBands = stream_bands(TileSize);
 
   EarlyZ(const RasterTask& task, Tallies& tallies)
       : task_(task),
@@ -47,6 +48,7 @@ class EarlyZ {
         flip_(state_.func == DepthFunc::kGreater || state_.func == DepthFunc::kGequal ? -1 : 0),
         inclusive_(state_.func == DepthFunc::kLequal || state_.func == DepthFunc::kGequal ? 1 : 0),
         touches_depth_(touches_depth(task.draw->early_z)),
+        tells_accesses_(touches_depth_ && task.stream != nullptr && task.stream->wants_accesses()),
         counts_parts_(touches_depth_ && (task.z_parts > 1 || task.tile_cache != nullptr)) {}
 
   /// `masks`: of the partial tiles.
@@ -64,6 +66,9 @@ class EarlyZ {
     }
     if (touches_depth_) {
       look_up(touched, state_.write ? passed.some : 0);
+      if (tells_accesses_) {
+        tell_accesses(touched);
+      }
     }
     counters_.early_z.tiles_killed += ones(touched & ~passed.some);
   }
@@ -126,6 +131,11 @@ class EarlyZ {
       touched_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{mask}}, task_.z_parts);
       written_parts_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{passed}}, task_.z_parts);
     }
+    if (tells_accesses_) {
+      const std::uint64_t written = state_.write ? passed : 0;
+      touched_bands_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{mask}}, kBands);
+      written_bands_[static_cast<std::size_t>(lane)] = parts_of_mask<TileSize>({{written}}, kBands);
+    }
     if (draw_.keeps_visible && passed != 0) {
       show(lane, passed);
     }
@@ -173,7 +183,7 @@ class EarlyZ {
       count_tiles_whole(tiles, tiles_->whole_fragments.get() + at_);
       count_tiles_whole(passed, tiles_->whole_survivors.get() + at_);
     }
-    if (!draw_.keeps_visible && !counts_parts_) {
+    if (!draw_.keeps_visible && !counts_parts_ && !tells_accesses_) {
       return;
     }
     for (std::uint32_t left = tiles; left != 0; left &= left - 1) {
@@ -361,6 +371,16 @@ class EarlyZ {
     }
   }
 
+  /// Of the visit's bursts, in the order of their jobs.
+  void tell_accesses(std::uint32_t touched) {
+    for (std::uint32_t left = touched; left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      task_.stream->access(
+          {static_cast<std::uint32_t>(tile_x(lane)), static_cast<std::uint32_t>(tile_y(lane)),
+           touched_bands_[static_cast<std::size_t>(lane)], written_bands_[static_cast<std::size_t>(lane)]});
+    }
+  }
+
   // ---- who watches ----
 
   /// The triangle is seen at samples.
@@ -400,6 +420,7 @@ class EarlyZ {
   const std::int32_t flip_;
   const std::int32_t inclusive_;
   const bool touches_depth_;
+  const bool tells_accesses_;
   const bool counts_parts_;  ///< of a tile, where it is not one line of a BlockCache
 
   // Of the visit.
@@ -411,6 +432,8 @@ class EarlyZ {
   std::uint32_t number_ = 0;  ///< of the triangle
   std::array<std::uint8_t, kLanes> touched_parts_{};
   std::array<std::uint8_t, kLanes> written_parts_{};
+  std::array<std::uint8_t, kLanes> touched_bands_{};  ///< of StreamAccess
+  std::array<std::uint8_t, kLanes> written_bands_{};
 };
 
 }  // namespace

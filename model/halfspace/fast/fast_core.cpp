@@ -90,8 +90,8 @@ const Counters& FastCore::counters() const { return runner_->counters(); }
 FrameResult FastCore::take() { return runner_->take(); }
 
 std::string_view gap(const Config& config, const Watch& watch, const StreamReader* reader) {
-  if (reader != nullptr && (reader->wants_accesses() || reader->wants_tiles())) {
-    return reader->wants_tiles() ? "a timeline" : "a record";
+  if (reader != nullptr && reader->wants_tiles()) {
+    return "a timeline";
   }
   if (config.tile_walker.tile_size > 8) {
     return "tile_walker.tile_size = 16";

@@ -28,6 +28,9 @@ void reset(Surface& surface, SurfaceTiles& tiles) {
   if (!surface.visible.empty()) {
     surface.visible.fill(all, kNothingVisible);
   }
+  if (!surface.sums.empty()) {
+    surface.sums.clear();
+  }
 }
 
 }  // namespace
@@ -35,7 +38,7 @@ void reset(Surface& surface, SurfaceTiles& tiles) {
 std::uint32_t FrameMemory::useful_threads(const Config& config, const Watch& watch) {
   const ZCacheShape shape = z_cache_shape(config);
   const int shift = block_shift_of(config);
-  if (!BlockCache::takes(shape, shift)) {
+  if (!BlockCache::takes(shape, shift) || watch.keep_sums) {
     return 1;
   }
   return std::bit_floor(std::min({static_cast<std::uint32_t>(std::max(watch.threads, 1)), Columns::kMost,
@@ -58,7 +61,7 @@ void FrameMemory::begin(const Frame& frame) {
   } else {
     shape_.clear();  // until all of it is there
     tiles.clear();
-    surfaces = make_surfaces(frame, config.tile_walker.tile_size, watch);
+    surfaces = make_surfaces(frame, config, watch);
     for (const Surface& surface : surfaces) {
       tiles.emplace_back(surface.codes, 1 << block_shift, largest_code(surface.format), threads);
     }

@@ -16,7 +16,8 @@ namespace halfspace::fast {
 
 struct FrameMemory {
   /// Threads that can draw at once, at most as many as `watch` allows: columns of blocks have nothing in
-  /// common only where they have sets of the z cache of their own. A power of two.
+  /// common only where they have sets of the z cache of their own. A power of two. Sums are kept by one: a
+  /// triangle that the units draw is walked in all columns at once.
   static std::uint32_t useful_threads(const Config& config, const Watch& watch);
 
   FrameMemory(const Config& config, const Watch& watch, std::uint32_t threads);

@@ -25,11 +25,14 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// Draws whose small triangles Small takes: what watches is shown fragments that are tested.
+/// Draws whose small triangles Small takes: what watches is shown fragments that are tested, and neither sums
+/// nor accesses are kept.
 HWY_INLINE bool takes_small(const RasterTask& task) {
   const EarlyZState& state = task.draw->early_z;
   const bool watches = task.counts_pixels || task.draw->keeps_visible;
-  return task.tile_cache == nullptr && task.z_parts == 1 &&
+  const bool keeps_more =
+      task.draw->sums != nullptr || (task.stream != nullptr && task.stream->wants_accesses());
+  return task.tile_cache == nullptr && task.z_parts == 1 && !keeps_more &&
          (!watches || (state.test && state.func != DepthFunc::kNever));
 }
 

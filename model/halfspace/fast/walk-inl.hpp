@@ -18,6 +18,7 @@
 #include "halfspace/fast/raster.hpp"
 #include "halfspace/fast/tallies.hpp"
 #include "halfspace/fast/triangle-inl.hpp"
+#include "halfspace/machine/passage/packet_sums.hpp"
 #include "halfspace/units/quad_generator.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,6 +53,7 @@ class Walk {
         tallies_(tallies),
         stream_(task.stream),
         columns_(task.columns),
+        sums_(task.draw->sums),
         surface_(task.surface),
         counts_pixels_(task.counts_pixels),
         tiles_(task.tiles),
@@ -118,6 +120,7 @@ class Walk {
       if (verdict.rejected != 0) {
         ++counters_.tile_walker.blocks_rejected;
         ++steps_;
+        count_block(x, y, TileVerdict::kReject);
         return;
       }
     }
@@ -145,6 +148,9 @@ class Walk {
       const std::uint32_t own = all & columns_.lanes(static_cast<std::uint32_t>(x));
       verdict.rejected &= own;
       counters_.tile_walker.blocks_rejected += ones(verdict.rejected);
+      for (std::uint32_t left = sums_ == nullptr ? 0 : verdict.rejected; left != 0; left &= left - 1) {
+        count_block(x + std::countr_zero(left), y, TileVerdict::kReject);
+      }
       const std::uint32_t whole = verdict.whole();
       int next = 0;
       for (std::uint32_t left = own & ~verdict.rejected; left != 0; left &= left - 1) {
@@ -203,6 +209,7 @@ class Walk {
       ++walker.blocks_accepted;
       walker.tiles_by_block += tiles;
       counters_.edge_evaluator.tiles_skipped += tiles;
+      count_block(x, y, TileVerdict::kAccept);
       for (int group = 0; group < groups_; ++group) {
         add(t, x, y, group, group_lanes(group, 0, block_tiles_ - 1, 0, block_tiles_ - 1), flush);
       }
@@ -228,9 +235,11 @@ class Walk {
     if (visit_count_ == kMostVisits) {
       flush();
     }
-    begin_visit(t, x, y, group).whole = static_cast<std::uint16_t>(whole);
+    Visit& visit = begin_visit(t, x, y, group);
+    visit.whole = static_cast<std::uint16_t>(whole);
     ++visit_count_;
     count_whole(whole);
+    count_quads(visit);
     tell_jobs(whole, whole, whole, nullptr);
   }
 
@@ -302,6 +311,7 @@ class Walk {
     }
     const std::uint32_t partial = touched & ~whole;
     count_tiles(verdict.rejected, whole, partial, verdict.accepted, counters_);
+    count_decisions(x, y, group, verdict.rejected, whole, partial);
     if (touched == 0) {
       steps_ += static_cast<std::uint32_t>(ones(decided));
       return;
@@ -341,6 +351,7 @@ class Walk {
     counters_.edge_evaluator.tiles_empty +=
         static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
     visit_count_ += (visit.whole | visit.partial) != 0 ? 1 : 0;
+    count_quads(visit);
     tell_jobs(decided, touched, whole, quads.data());
   }
 
@@ -365,6 +376,46 @@ class Walk {
     tallies_.quads += quads;
     tallies_.full_quads += ones((all_pairs & all_pairs >> TileSize) & kCorners);
     return quads;
+  }
+
+  /// A block that is decided for all its tiles.
+  void count_block(int x, int y, TileVerdict verdict) {
+    if (sums_ != nullptr) {
+      passage::count_decision<TileSize>(*sums_, x << block_shift_, y << block_shift_, block_size_, verdict);
+    }
+  }
+
+  /// Of a group of tiles of a block, by lane.
+  void count_decisions(int x, int y, int group, std::uint32_t rejected, std::uint32_t whole,
+                       std::uint32_t partial) {
+    if (sums_ == nullptr) {
+      return;
+    }
+    TileDecisions* const tiles = sums_->decisions.tile(x, y) + group * kLanes;
+    const auto count = [tiles](std::uint32_t lanes, TileVerdict verdict) {
+      for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
+        passage::count(tiles[std::countr_zero(left)], verdict);
+      }
+    };
+    count(rejected, TileVerdict::kReject);
+    count(whole, TileVerdict::kAccept);
+    count(partial, TileVerdict::kPartial);
+  }
+
+  void count_quads(const Visit& visit) {
+    if (sums_ == nullptr) {
+      return;
+    }
+    const int first_x = static_cast<int>(visit.block_x) << tile_shift_;
+    const int first_y =
+        (static_cast<int>(visit.block_y) << tile_shift_) + static_cast<int>(visit.group) * group_rows_;
+    const std::uint64_t* mask = masks(visit);
+    for (std::uint32_t left = visit.whole | visit.partial; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const std::uint64_t covered = (visit.whole >> i & 1) != 0 ? kAll : *mask++;
+      passage::count_quads<TileSize>(*sums_, first_x + (i & (block_tiles_ - 1)), first_y + (i >> tile_shift_),
+                                     {{covered}});
+    }
   }
 
   /// Of a group of tiles those that were decided, the jobs among them, and of these the ones that are covered
@@ -450,6 +501,7 @@ class Walk {
   Tallies& tallies_;
   StreamWriter* const stream_;
   const Columns columns_;
+  PacketSums* const sums_;
   Surface* const surface_;
   const bool counts_pixels_;
   SurfaceTiles* const tiles_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/machine/packet_sums.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
 #include "halfspace/units/setup.hpp"
@@ -23,6 +24,7 @@ struct DrawContext {
   SetupState setup;
   EarlyZState early_z;
   bool keeps_visible = false;          ///< its survivors go into Surface::visible
+  PacketSums* sums = nullptr;          ///< of the surface, where they are kept
   PacketObserver* observer = nullptr;  ///< not null where one of the following is set
   bool record_quads = false;
   bool record_decisions = false;

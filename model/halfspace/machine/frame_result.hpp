@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "halfspace/machine/core.hpp"
+#include "halfspace/machine/packet_sums.hpp"
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
@@ -23,6 +24,7 @@ struct Surface {
   /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
   /// where no draw writes depth, the one that passed last. Kept on request.
   TiledImage<std::uint32_t> visible;
+  PacketSums sums;    ///< on request
   Counters counters;  ///< of all draws on the surface
 };
 

@@ -13,8 +13,7 @@ constexpr std::uint32_t kFrontEndBatch = 256;
 }  // namespace
 
 FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserver* observer,
-                         const std::vector<Surface>& surfaces, FrameResult& result,
-                         std::deque<DrawContext>& draws)
+                         std::vector<Surface>& surfaces, FrameResult& result, std::deque<DrawContext>& draws)
     : frame_(frame),
       config_(config),
       observer_(observer),
@@ -95,6 +94,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.early_z = early_z_state(command, format, config_);
   draw.keeps_visible =
       has_depth && !surfaces_[number].visible.empty() && (draw.early_z.write || !depth_written_[number]);
+  draw.sums = has_depth && !surfaces_[number].sums.empty() ? &surfaces_[number].sums : nullptr;
   if (observer_ != nullptr) {
     draw.observer = observer_;
     draw.record_quads = observer_->wants_quads();

@@ -35,7 +35,7 @@ struct RawTriangles {
 class FrameSource {
  public:
   FrameSource(const Frame& frame, const Config& config, PacketObserver* observer,
-              const std::vector<Surface>& surfaces, FrameResult& result, std::deque<DrawContext>& draws);
+              std::vector<Surface>& surfaces, FrameResult& result, std::deque<DrawContext>& draws);
 
   /// Begins a command, by its index; the one before must be done. Gives the draw, or the clear that is drawn;
   /// null where the command is neither.
@@ -54,7 +54,7 @@ class FrameSource {
   const Frame& frame_;
   const Config& config_;
   PacketObserver* observer_;
-  const std::vector<Surface>& surfaces_;
+  std::vector<Surface>& surfaces_;
   FrameResult& result_;
   std::deque<DrawContext>& draws_;
   std::vector<bool> depth_written_;  ///< by surface: some draw of the frame writes its depth

@@ -66,13 +66,12 @@ class InOrderRun {
         reader_(reader),
         walker_(walker_config(config)),
         quads_(watch.observer, static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {
-    result_.surfaces = make_surfaces(frame, TileSize, watch);
+    result_.surfaces = make_surfaces(frame, config, watch);
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));
     if (reader != nullptr) {
       stream_.emplace(*reader, frame.name);
-      wants_accesses_ = reader->wants_accesses();
       wants_tiles_ = reader->wants_tiles();
       wants_cycles_ = reader->has_time() && observer_ != nullptr && observer_->wants_quads();
       reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
@@ -185,7 +184,7 @@ class InOrderRun {
         passage::z_cache(z_cache_, places_[draw_->surface], coverage, touched, written, *draw_);
     if (stream_) {
       stream_->accessed(misses.parts());
-      if (wants_accesses_) {
+      if (stream_->wants_accesses()) {
         constexpr int kBands = stream_bands(TileSize);
         stream_->access({coverage.tile_x, coverage.tile_y,
                          passage::touched_parts<TileSize>(coverage, *draw_, kBands),
@@ -237,7 +236,6 @@ class InOrderRun {
   ZCache z_cache_;
 
   std::optional<StreamWriter> stream_;  ///< where somebody reads
-  bool wants_accesses_ = false;
   bool wants_tiles_ = false;
   bool wants_cycles_ = false;
   QuadQueue quads_;

@@ -54,6 +54,7 @@ class PacketObserver {
 struct Watch {
   bool keep_visible = false;           ///< fill Surface::visible: 4 bytes a pixel more
   bool count_pixels = true;            ///< fill Surface::fragments and survivors
+  bool keep_sums = false;              ///< fill Surface::sums
   PacketObserver* observer = nullptr;  ///< must outlive the run
   Core core = Core::kAuto;             ///< of the functional engines
   int threads = 1;                     ///< that the run may use, at least 1

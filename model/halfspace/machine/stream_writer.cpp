@@ -9,7 +9,7 @@
 namespace halfspace {
 
 StreamWriter::StreamWriter(StreamReader& reader, std::string frame)
-    : reader_(reader), frame_(std::move(frame)) {}
+    : reader_(reader), wants_accesses_(reader.wants_accesses()), frame_(std::move(frame)) {}
 
 void StreamWriter::begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth) {
   packets_.segments.push_back({.kind = kind, .surface = surface, .touches_depth = touches_depth ? 1u : 0u});

@@ -37,6 +37,7 @@ class StreamWriter {
   /// So many bursts have to do with stored depth, in the order of their jobs; what they missed in the z cache
   /// has been said.
   void accessed(std::uint32_t bursts = 1) { accesses_ += bursts; }
+  [[nodiscard]] bool wants_accesses() const { return wants_accesses_; }
   /// A burst has, and missed so much.
   void accessed(std::span<const ZMiss> misses) {
     for (const ZMiss& each : misses) {
@@ -70,6 +71,7 @@ class StreamWriter {
   [[noreturn]] void refuse_steps(std::uint32_t steps) const;
 
   StreamReader& reader_;
+  bool wants_accesses_;
   std::string frame_;
   PacketStream packets_;
   ZMissStream z_;

@@ -25,7 +25,8 @@ std::vector<SurfaceShape> surface_shapes(const Frame& frame) {
   return shapes;
 }
 
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, const Watch& watch) {
+std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, const Watch& watch) {
+  const int tile_size = config.tile_walker.tile_size;
   std::vector<Surface> surfaces;
   for (const SurfaceShape& shape : surface_shapes(frame)) {
     Surface& surface = surfaces.emplace_back();
@@ -40,6 +41,9 @@ std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, const Watc
     }
     if (watch.keep_visible) {
       surface.visible = {shape.width, shape.height, tile_size, kNothingVisible};
+    }
+    if (watch.keep_sums) {
+      surface.sums = {shape.width, shape.height, tile_size, config.tile_walker.block_size};
     }
   }
   return surfaces;

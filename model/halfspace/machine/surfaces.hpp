@@ -26,7 +26,7 @@ struct SurfaceShape {
 std::vector<SurfaceShape> surface_shapes(const Frame& frame);
 
 /// The surfaces before the first command, at depth 1, with the images that `watch` asks for.
-std::vector<Surface> make_surfaces(const Frame& frame, int tile_size, const Watch& watch);
+std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, const Watch& watch);
 
 /// As a packet stream has them.
 std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces);

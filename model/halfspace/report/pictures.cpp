@@ -108,6 +108,22 @@ Picture paint(const Surface& surface, const Paint& color) {
   return picture;
 }
 
+/// The same with color(column, row) for each square of `side` pixels.
+template <class Color>
+Picture paint_squares(const Surface& surface, int side, const Color& color) {
+  Picture picture(surface.codes.width(), surface.codes.height());
+  for (int top = 0; top < picture.height; top += side) {
+    for (int left = 0; left < picture.width; left += side) {
+      const Rgb rgb = color(left / side, top / side);
+      const int width = std::min(side, picture.width - left);
+      for (int y = top; y < std::min(top + side, picture.height); ++y) {
+        std::fill_n(&picture.at(left, y), width, rgb);
+      }
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_t surface) {
@@ -164,29 +180,25 @@ Picture overdraw_picture(const Surface& surface) {
   });
 }
 
-Picture tile_picture(const Surface& surface, const CellMap<TileDecisions>& map, int tile_size) {
-  return paint(surface, [&](int x, int y) {
-    const auto column = static_cast<std::size_t>(x / tile_size);
-    const TileDecisions& cell =
-        map.cells[static_cast<std::size_t>(y / tile_size) * static_cast<std::size_t>(map.columns) + column];
-    const auto all = static_cast<float>(cell.rejected + cell.accepted + cell.partial);
+Picture tile_picture(const Surface& surface, int tile_size) {
+  return paint_squares(surface, tile_size, [&](int column, int row) {
+    const TileDecisions& tile = surface.sums.decisions.at(column, row);
+    const auto all = static_cast<float>(tile.rejected + tile.accepted + tile.partial);
     if (all == 0) {
       return Rgb{};
     }
-    const glm::vec3 share = glm::vec3(cell.rejected, cell.accepted, cell.partial) / all;
+    const glm::vec3 share = glm::vec3(tile.rejected, tile.accepted, tile.partial) / all;
     return to_rgb(share * (0.35f + 0.65f * std::min(1.0f, std::log2(1 + all) / 6)));
   });
 }
 
-Picture quad_picture(const Surface& surface, const CellMap<QuadLanes>& map) {
-  return paint(surface, [&](int x, int y) {
-    const QuadLanes& cell =
-        map.cells[static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(map.columns) +
-                  static_cast<std::size_t>(x / 2)];
-    if (cell.quads == 0) {
+Picture quad_picture(const Surface& surface) {
+  return paint_squares(surface, 2, [&](int column, int row) {
+    const QuadLanes& place = surface.sums.quads.at(column, row);
+    if (place.quads == 0) {
       return Rgb{};
     }
-    const float live = static_cast<float>(cell.covered) / static_cast<float>(4 * cell.quads);
+    const float live = static_cast<float>(place.covered) / (4 * static_cast<float>(place.quads));
     const float t = (live - 0.25f) / 0.75f;
     return to_rgb(glm::mix(glm::vec3(0.95f, 0.2f, 0.15f), glm::vec3(0.15f, 0.6f, 0.3f), t));
   });

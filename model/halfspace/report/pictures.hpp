@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "halfspace/core/functional.hpp"
-#include "halfspace/report/recorder.hpp"
+#include "halfspace/machine/frame_result.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace {
@@ -38,11 +37,12 @@ Picture depth_picture(const Surface& surface);
 Picture overdraw_picture(const Surface& surface);
 
 /// Share of the decisions about each tile: red reject, green accept, blue partial; brighter with more
-/// decisions.
-Picture tile_picture(const Surface& surface, const CellMap<TileDecisions>& map, int tile_size);
+/// decisions. Needs Surface::sums.
+Picture tile_picture(const Surface& surface, int tile_size);
 
 /// Mean share of live lanes of the quads at each place: from red (one lane of four) to green (all four).
-Picture quad_picture(const Surface& surface, const CellMap<QuadLanes>& map);
+/// Needs Surface::sums.
+Picture quad_picture(const Surface& surface);
 
 /// Throws InputError.
 void write_png(const std::filesystem::path& path, const Picture& picture);

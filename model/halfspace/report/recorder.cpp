@@ -1,7 +1,8 @@
 #include "halfspace/report/recorder.hpp"
 
-#include <algorithm>
-#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace halfspace {
 namespace {
@@ -36,75 +37,31 @@ void append(NpyWriter& file, const Record& record) {
 
 }  // namespace
 
-Recorder::Recorder(const Frame& frame, int tile_size, const Options& options)
-    : tile_size_(tile_size), sums_(options.sums) {
+Recorder::Recorder(const Options& options) {
   if (options.quads) {
     quads_.emplace(*options.quads, kQuadDescr, sizeof(QuadRecord));
   }
   if (options.tiles) {
     tiles_.emplace(*options.tiles, kTileDescr, sizeof(TileRecord));
   }
-  for (const Target& target : frame.targets) {
-    if (!sums_ || target.depth_surface == kNoSurface) {
-      continue;
-    }
-    const std::size_t count = std::max<std::size_t>(decisions.size(), target.depth_surface + 1);
-    decisions.resize(count);
-    lanes.resize(count);
-    const int width = static_cast<int>(target.width);
-    const int height = static_cast<int>(target.height);
-    decisions[target.depth_surface] = {width, height, tile_size};
-    lanes[target.depth_surface] = {width, height, 2};
-  }
 }
 
 void Recorder::quad(const QuadEvent& event) {
-  if (sums_ && event.surface != kNoSurface) {
-    QuadLanes& cell = lanes[event.surface].at(event.x / 2, event.y / 2);
-    ++cell.quads;
-    cell.covered += static_cast<std::uint32_t>(std::popcount(event.mask));
-  }
-  if (quads_) {
-    const auto& z = event.depth;
-    append(*quads_, QuadRecord{event.draw,
-                               event.triangle,
-                               event.surface,
-                               event.x,
-                               event.y,
-                               event.mask,
-                               event.passed,
-                               {z[0], z[1], z[2], z[3]},
-                               event.cycle});
-  }
+  const auto& z = event.depth;
+  append(*quads_, QuadRecord{event.draw,
+                             event.triangle,
+                             event.surface,
+                             event.x,
+                             event.y,
+                             event.mask,
+                             event.passed,
+                             {z[0], z[1], z[2], z[3]},
+                             event.cycle});
 }
 
 void Recorder::decision(const DecisionEvent& event) {
-  const bool undecided_block =
-      event.verdict == TileVerdict::kPartial && event.size != static_cast<std::uint32_t>(tile_size_);
-  if (sums_ && event.surface != kNoSurface && !undecided_block) {
-    count_decision(event);
-  }
-  if (tiles_) {
-    append(*tiles_, TileRecord{event.draw, event.triangle, event.x, event.y, event.size,
-                               static_cast<std::uint8_t>(event.verdict)});
-  }
-}
-
-void Recorder::count_decision(const DecisionEvent& event) {
-  CellMap<TileDecisions>& map = decisions[event.surface];
-  const auto tile = static_cast<std::uint32_t>(tile_size_);
-  const std::uint32_t last_column =
-      std::min((event.x + event.size) / tile, static_cast<std::uint32_t>(map.columns));
-  const std::uint32_t last_row =
-      std::min((event.y + event.size) / tile, static_cast<std::uint32_t>(map.rows));
-  for (std::uint32_t row = event.y / tile; row < last_row; ++row) {
-    for (std::uint32_t column = event.x / tile; column < last_column; ++column) {
-      TileDecisions& cell = map.at(column, row);
-      ++(event.verdict == TileVerdict::kReject   ? cell.rejected
-         : event.verdict == TileVerdict::kAccept ? cell.accepted
-                                                 : cell.partial);
-    }
-  }
+  append(*tiles_, TileRecord{event.draw, event.triangle, event.x, event.y, event.size,
+                             static_cast<std::uint8_t>(event.verdict)});
 }
 
 void Recorder::finish() {

@@ -38,22 +38,22 @@ void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t numb
 }  // namespace
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
-                        const StallPlan& stalls, const RunResult& result, const Recorder& recorder) {
+                        const StallPlan& stalls, const RunResult& result) {
   for (std::size_t i = 0; i < result.frame.surfaces.size(); ++i) {
     const Surface& surface = result.frame.surfaces[i];
     if (surface.codes.empty()) {
       continue;  // no target uses this number
     }
     write_arrays(folder, surface, i);
-    if (recorder.lanes.empty()) {
+    if (surface.sums.empty()) {
       continue;  // no pictures asked for
     }
     const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, i)); };
     write_png(picture("shaded"), shaded_picture(frame, result.frame, i));
     write_png(picture("depth"), depth_picture(surface));
     write_png(picture("overdraw"), overdraw_picture(surface));
-    write_png(picture("tiles"), tile_picture(surface, recorder.decisions[i], config.tile_walker.tile_size));
-    write_png(picture("quads"), quad_picture(surface, recorder.lanes[i]));
+    write_png(picture("tiles"), tile_picture(surface, config.tile_walker.tile_size));
+    write_png(picture("quads"), quad_picture(surface));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);
   write_stats(stats, frame, config, fidelity, stalls, result, folder.files());

@@ -5,7 +5,6 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/report/output_folder.hpp"
-#include "halfspace/report/recorder.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/stall_plan.hpp"
@@ -13,9 +12,9 @@
 namespace halfspace {
 
 /// Writes depth<S>.npy, fragments<S>.npy and survivors<S>.npy of every surface, shaded<S>.png, depth<S>.png,
-/// overdraw<S>.png, tiles<S>.png and quads<S>.png where `recorder` kept the sums, and stats.json.
+/// overdraw<S>.png, tiles<S>.png and quads<S>.png where the run kept sums, and stats.json.
 /// Throws InputError.
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
-                        const StallPlan& stalls, const RunResult& result, const Recorder& recorder);
+                        const StallPlan& stalls, const RunResult& result);
 
 }  // namespace halfspace

@@ -257,8 +257,7 @@ class EglLlvmpipe final : public Llvmpipe {
 
   /// A renderbuffer for each depth surface and a framebuffer for each target.
   void make_targets() {
-    const std::vector<Surface> surfaces =
-        make_surfaces(*frame_, config_->tile_walker.tile_size, Watch{.count_pixels = false});
+    const std::vector<Surface> surfaces = make_surfaces(*frame_, *config_, Watch{.count_pixels = false});
     surfaces_.assign(surfaces.size(), 0);
     gl_.GenRenderbuffers(static_cast<GLsizei>(surfaces_.size()), surfaces_.data());
     formats_.clear();

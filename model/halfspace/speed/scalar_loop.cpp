@@ -204,7 +204,7 @@ ScalarCounts draw_other(const ScalarDraw& draw, int sub_pixel_bits, float* depth
 ScalarLoop::ScalarLoop(const Frame& frame, const Config& config)
     : sub_pixel_bits_(config.raster.sub_pixel_bits) {
   FrameResult result;
-  result.surfaces = make_surfaces(frame, config.tile_walker.tile_size, Watch{.count_pixels = false});
+  result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   std::deque<DrawContext> contexts;
   FrameSource source(frame, config, nullptr, result.surfaces, result, contexts);
   for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {

@@ -49,7 +49,7 @@ class PrefixRun {
  public:
   PrefixRun(const Frame& frame, const Config& config)
       : frame_(frame), config_(config), walker_(walker_config(config)) {
-    result_.surfaces = make_surfaces(frame, TileSize, Watch{});
+    result_.surfaces = make_surfaces(frame, config, Watch{});
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));

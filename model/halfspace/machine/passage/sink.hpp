@@ -1,5 +1,5 @@
 /// A tested burst's passage through what follows early_z, as pixel shading would take it: counts of each
-/// pixel, the visible image, and the quads for who watches.
+/// pixel and quad, the visible image, and the quads for who watches.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/machine/passage/packet_sums.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_mask.hpp"
 #include "halfspace/units/z_test.hpp"
@@ -48,6 +49,9 @@ void sink(const TileMask& covered, const TileMask& passed, int tile_x, int tile_
   if (!draw.is_clear() && !surface->fragments.empty()) {
     count_samples<TileSize>(covered, surface->fragments.tile(tile_x, tile_y));
     count_samples<TileSize>(passed, surface->survivors.tile(tile_x, tile_y));
+  }
+  if (draw.sums != nullptr) {
+    count_quads<TileSize>(*draw.sums, tile_x, tile_y, covered);
   }
   if (draw.keeps_visible) {
     const std::uint32_t shown = draw.is_clear() ? kNothingVisible : draw.first_triangle + triangle;

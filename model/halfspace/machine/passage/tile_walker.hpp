@@ -1,11 +1,12 @@
-/// A triangle's passage through tile_walker: the unit, its steps, its counters, its events and the slot that
-/// its jobs carry.
+/// A triangle's passage through tile_walker: the unit, its steps, its counters, sums and events, and the slot
+/// that its jobs carry.
 #pragma once
 
 #include <cstdint>
 
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/machine/passage/packet_sums.hpp"
 #include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace::passage {
@@ -46,6 +47,9 @@ class TileWalker {
     void decision(int x, int y, int size, TileVerdict verdict) {
       ++steps;
       count(draw.counters.tile_walker, verdict, size != TileSize);
+      if (draw.sums != nullptr) {
+        count_decision<TileSize>(*draw.sums, x, y, size, verdict);
+      }
       if (draw.record_decisions) {
         draw.observer->decision({.draw = draw.draw,
                                  .triangle = triangle.triangle,

@@ -50,12 +50,12 @@ class RecordReader final : public StreamReader {
 
 }  // namespace
 
-FrameRecord record_frame(const Frame& frame, const Config& config, PacketObserver* observer) {
+FrameRecord record_frame(const Frame& frame, const Config& config, const Watch& watch) {
   FrameRecord record;
   record.name = frame.name;
   record.config = config;
   RecordReader reader(record);
-  run_core(frame, config, {.observer = observer}, &reader);
+  run_core(frame, config, watch, &reader);
   return record;
 }
 

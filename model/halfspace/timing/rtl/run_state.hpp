@@ -30,7 +30,7 @@ struct RunState {
         pipeline(verilated),
         report(packet_report),
         meter(machine, packet_report) {
-    result.surfaces = make_surfaces(frame, machine.tile_walker.tile_size, run_options.watch);
+    result.surfaces = make_surfaces(frame, machine, run_options.watch);
     places = place_surfaces(result.surfaces, machine);
     clear_code.resize(places.size());
   }

@@ -21,8 +21,7 @@ constexpr int kTraceBits = 8;
 }  // namespace
 
 std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
-  const std::vector<Surface> surfaces =
-      make_surfaces(frame, config.tile_walker.tile_size, Watch{.count_pixels = false});
+  const std::vector<Surface> surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   return DepthLayout(surfaces, place_surfaces(surfaces, config), config.z_cache.parts, 0).end();
 }
 
@@ -117,7 +116,7 @@ void RasterPipeline::trace_to(sc_core::sc_trace_file* file) {
 void RasterPipeline::begin_frame() {
   run_.clock.restart();
   run_.result = {};
-  run_.result.surfaces = make_surfaces(*run_.frame, run_.config.tile_walker.tile_size, watch_);
+  run_.result.surfaces = make_surfaces(*run_.frame, run_.config, watch_);
   run_.places = place_surfaces(run_.result.surfaces, run_.config);
   run_.draws.clear();
   run_.book = {};
