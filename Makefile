@@ -34,6 +34,8 @@ test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, an
 
 .PHONY: rtl
 rtl: build/release/build.ninja ## Verilate the pipeline of every named configuration, for --fidelity rtl.
+	@sh tools/install_packages.sh tools/packages-rtl.txt
+	cmake --preset release --log-level=WARNING
 	cmake --build --preset release --target halfspace_cli raster_pipeline_fast
 
 .PHONY: bench

@@ -49,11 +49,10 @@ module depth_plane
 
   logic [Stages-1:0]   valid;
   logic [Stages-2:0]   valid_q;
-  along_t [Stages-1:0] along;
-  along_t [Stages-2:0] along_q;
+  along_t              along [Stages] /*verilator split_var*/;
 
-  assign valid = {valid_q, valid_i};
-  assign along = {along_q, along_t'{
+  assign valid    = {valid_q, valid_i};
+  assign along[0] = '{
     has_depth:  format_i != '0,
     is_float:   format_i == Float32,
     is_unorm16: format_i == Unorm16,
@@ -62,13 +61,16 @@ module depth_plane
     offset:     equation_i.offset,
     min_code:   equation_i.min_code,
     max_code:   equation_i.max_code
-  }};
+  };
 
   always_ff @(posedge clk_i) begin
     valid_q <= valid[Stages-2:0];
-    for (int unsigned i = 0; i < Stages - 1; i++) begin
-      if (valid[i]) begin
-        along_q[i] <= along[i];
+  end
+
+  for (genvar i = 1; i < Stages; i++) begin : gen_along
+    always_ff @(posedge clk_i) begin
+      if (valid[i-1]) begin
+        along[i] <= along[i-1];
       end
     end
   end
@@ -174,8 +176,8 @@ module depth_plane
   end
 
   // 6 and 7: columns and rows of the tile; the origin is in the rows.
-  modular_t [TileSize-1:0] column_q, row_q;
-  modular_t                origin6_q, dx6_q;
+  modular_t column_q [TileSize], row_q [TileSize];
+  modular_t origin6_q, dx6_q;
 
   function automatic modular_t multiple(modular_t step, int unsigned times);
     modular_t sum;
@@ -200,7 +202,7 @@ module depth_plane
     return sum;
   endfunction
 
-  modular_t [TileSize-1:0] down6_q;
+  modular_t down6_q [TileSize];
 
   always_ff @(posedge clk_i) begin
     if (valid[5]) begin

@@ -377,8 +377,8 @@ module early_z
 
   traveller_t  issued_q;
   edge_t [1:0] issued_e_q;
-  traveller_t  beat_q  [InterpolatorLatency];
-  test_state_t state_q [InterpolatorLatency];
+  traveller_t  beat_q  [InterpolatorLatency] /*verilator split_var*/;
+  test_state_t state_q [InterpolatorLatency] /*verilator split_var*/;
   logic [InterpolatorLatency:0] valid_q; // bit i: i cycles after the first stage
 
   always_ff @(posedge clk_i) begin
@@ -407,7 +407,10 @@ module early_z
       beat_q[0]  <= issued_q;
       state_q[0] <= triangle.state;
     end
-    for (int unsigned i = 1; i < InterpolatorLatency; i++) begin
+  end
+
+  for (genvar i = 1; i < InterpolatorLatency; i++) begin : gen_travel
+    always_ff @(posedge clk_i) begin
       if (valid_q[i]) begin
         beat_q[i]  <= beat_q[i-1];
         state_q[i] <= state_q[i-1];

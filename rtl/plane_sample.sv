@@ -2,7 +2,8 @@
 // that of model/halfspace/units/z_test.cpp. Five registers; the last stage is wires.
 //
 // A column and a row of the tile add up to the word; the offset is added; unorm sums are shifted to codes, float32 sums
-// moved up to their top bit and rounded; both are clamped.
+// moved up to their top bit and rounded; both are clamped. What a stage computes is written where its register loads, so
+// that a simulator skips it where nothing is valid.
 
 module plane_sample
   import raster_pkg::*;
@@ -54,32 +55,41 @@ module plane_sample
   end
 
   // 9: with the offset, 0 if negative.
-  logic signed [WordBits-1:0] word;
-  logic signed [WordBits+1:0] sum;
-  logic [WordBits:0]          sum_q;
+  typedef logic [WordBits:0] sum_t;
 
-  assign word = short_i ? word_t'($signed(word_q[ShortBits-1:0])) : word_q;
-  assign sum  = (WordBits + 2)'(word) + (WordBits + 2)'(offset_i);
+  sum_t sum_q;
+
+  function automatic sum_t offset_sum(logic is_short, logic [WordBits-1:0] modular,
+                                      logic signed [WordBits:0] offset);
+    logic signed [WordBits-1:0] word;
+    logic signed [WordBits+1:0] sum;
+    word = is_short ? word_t'($signed(modular[ShortBits-1:0])) : modular;
+    sum  = (WordBits + 2)'(word) + (WordBits + 2)'(offset);
+    return sum[WordBits+1] ? '0 : sum[WordBits:0];
+  endfunction
 
   always_ff @(posedge clk_i) begin
     if (valid_q[0]) begin
-      sum_q <= sum[WordBits+1] ? '0 : sum[WordBits:0];
+      sum_q <= offset_sum(short_i, word_q, offset_i);
     end
   end
 
   // 10: a unorm code; a float32 sum with its top bit at bit 63.
   normalized_t         normal_q;
   logic [CodeBits-1:0] unorm_q;
-  logic [WordBits:0]   unorm;
 
-  assign unorm = sum_q >> place_i;
+  function automatic logic [CodeBits-1:0] unorm_code(sum_t sum, logic [5:0] place);
+    sum_t code;
+    code = sum >> place;
+    return code[WordBits:CodeBits] != '0 ? '1 : code[CodeBits-1:0];
+  endfunction
 
   always_ff @(posedge clk_i) begin
     if (valid_q[1] && float10_i) begin
       normal_q <= normalize(sum_q[WordBits-1:0]);
     end
     if (valid_q[1] && !float10_i) begin
-      unorm_q <= unorm[WordBits:CodeBits] != '0 ? '1 : unorm[CodeBits-1:0];
+      unorm_q <= unorm_code(sum_q, place_i);
     end
   end
 

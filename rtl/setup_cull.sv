@@ -1,7 +1,8 @@
 // The cull stage of setup: from a snapped triangle to its verdict, turned to positive area.
 //
 // Three registers, one triangle a cycle: differences of the vertices; products of the area and extremes of the
-// coordinates; area of either sign and bounds. The verdict follows behind the third. Two multipliers of StepBits.
+// coordinates; area of either sign and bounds. The verdict follows behind the third. Two multipliers of StepBits. What a
+// register takes is written where it loads: a simulator then computes nothing where nothing is valid.
 
 module setup_cull
   import raster_pkg::*;
@@ -56,6 +57,19 @@ module setup_cull
     return dy[StepBits-1] || (dy == '0 && dx[StepBits-1]);
   endfunction
 
+  // Bit i: register i holds a triangle.
+  logic [3:1] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= '0;
+    end else begin
+      valid_q <= {valid_q[2:1], valid_i};
+    end
+  end
+
+  assign valid_o = valid_q[3];
+
   // First register: differences.
   typedef struct packed {
     screen_triangle_t triangle;
@@ -64,26 +78,18 @@ module setup_cull
     differences_t     y;
   } compared_t;
 
-  compared_t compared_d, compared_q;
-  logic      compared_valid;
+  compared_t compared_q;
 
-  assign compared_d = '{
-    triangle: triangle_i,
-    state:    state_i,
-    x:        differences(triangle_i.x),
-    y:        differences(triangle_i.y)
-  };
-
-  pipe_register #(
-    .Width ($bits(compared_t))
-  ) u_compared (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (valid_i),
-    .data_i  (compared_d),
-    .valid_o (compared_valid),
-    .data_o  (compared_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      compared_q <= '{
+        triangle: triangle_i,
+        state:    state_i,
+        x:        differences(triangle_i.x),
+        y:        differences(triangle_i.y)
+      };
+    end
+  end
 
   // Second register: the products, whose difference is twice the area, and the extremes. The area fits AreaBits and a
   // sign, so bits of the products above that cannot matter.
@@ -101,33 +107,25 @@ module setup_cull
     coord_t           y_max;
   } product_t;
 
-  product_t product_d, product_q;
-  logic     product_valid;
+  product_t product_q;
 
-  assign product_d = '{
-    triangle: compared_q.triangle,
-    state:    compared_q.state,
-    first:    least(comes_before(compared_q.x.d01, compared_q.y.d01),
-                    comes_before(compared_q.x.d02, compared_q.y.d02),
-                    comes_before(compared_q.x.d12, compared_q.y.d12)),
-    plus:     signed_area_t'(compared_q.x.d01) * signed_area_t'(compared_q.y.d02),
-    minus:    signed_area_t'(compared_q.x.d02) * signed_area_t'(compared_q.y.d01),
-    x_min:    smallest(compared_q.triangle.x, compared_q.x),
-    x_max:    largest(compared_q.triangle.x, compared_q.x),
-    y_min:    smallest(compared_q.triangle.y, compared_q.y),
-    y_max:    largest(compared_q.triangle.y, compared_q.y)
-  };
-
-  pipe_register #(
-    .Width ($bits(product_t))
-  ) u_product (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (compared_valid),
-    .data_i  (product_d),
-    .valid_o (product_valid),
-    .data_o  (product_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1]) begin
+      product_q <= '{
+        triangle: compared_q.triangle,
+        state:    compared_q.state,
+        first:    least(comes_before(compared_q.x.d01, compared_q.y.d01),
+                        comes_before(compared_q.x.d02, compared_q.y.d02),
+                        comes_before(compared_q.x.d12, compared_q.y.d12)),
+        plus:     signed_area_t'(compared_q.x.d01) * signed_area_t'(compared_q.y.d02),
+        minus:    signed_area_t'(compared_q.x.d02) * signed_area_t'(compared_q.y.d01),
+        x_min:    smallest(compared_q.triangle.x, compared_q.x),
+        x_max:    largest(compared_q.triangle.x, compared_q.x),
+        y_min:    smallest(compared_q.triangle.y, compared_q.y),
+        y_max:    largest(compared_q.triangle.y, compared_q.y)
+      };
+    end
+  end
 
   // Third register: the area and its negative, side by side so that its size needs no second carry chain, and the
   // bounds, with a range beyond the screen.
@@ -163,30 +161,23 @@ module setup_cull
     return pixel < bound ? pixel : bound;
   endfunction
 
-  sized_t sized_d, sized_q;
+  sized_t sized_q;
 
-  assign sized_d = '{
-    triangle: product_q.triangle,
-    state:    product_q.state,
-    first:    product_q.first,
-    area:     product_q.plus - product_q.minus,
-    negated:  product_q.minus - product_q.plus,
-    x_first:  first_pixel(product_q.x_min, product_q.state.x_first),
-    x_last:   last_pixel(product_q.x_max, product_q.state.x_last),
-    y_first:  first_pixel(product_q.y_min, product_q.state.y_first),
-    y_last:   last_pixel(product_q.y_max, product_q.state.y_last)
-  };
-
-  pipe_register #(
-    .Width ($bits(sized_t))
-  ) u_sized (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (product_valid),
-    .data_i  (sized_d),
-    .valid_o (valid_o),
-    .data_o  (sized_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_q[2]) begin
+      sized_q <= '{
+        triangle: product_q.triangle,
+        state:    product_q.state,
+        first:    product_q.first,
+        area:     product_q.plus - product_q.minus,
+        negated:  product_q.minus - product_q.plus,
+        x_first:  first_pixel(product_q.x_min, product_q.state.x_first),
+        x_last:   last_pixel(product_q.x_max, product_q.state.x_last),
+        y_first:  first_pixel(product_q.y_min, product_q.state.y_first),
+        y_last:   last_pixel(product_q.y_max, product_q.state.y_last)
+      };
+    end
+  end
 
   // The verdict. A bounding box without a pixel centre has no pixel in common with the screen either.
   logic negative, front, culled, no_pixel;

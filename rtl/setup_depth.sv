@@ -2,7 +2,8 @@
 // polygon offset; bit for bit those of model/halfspace/units/depth_interpolator.cpp.
 //
 // Eight registers, one triangle a cycle: the extremes; the power of two; the depths and the offset as words; sums with
-// the offset; normalized; where to round; codes; limits.
+// the offset; normalized; where to round; codes; limits. What a register takes is a function of the one before, called where
+// it loads: a simulator then computes nothing where nothing is valid.
 
 module setup_depth
   import raster_pkg::*;
@@ -45,6 +46,19 @@ module setup_depth
     logic [CodeBits-1:0] most_code;
   } draw_t;
 
+  // Bit i: register i holds a triangle.
+  logic [8:1] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= '0;
+    end else begin
+      valid_q <= {valid_q[7:1], valid_i};
+    end
+  end
+
+  assign valid_o = valid_q[8];
+
   // First register: which depths are the least and the greatest.
   typedef struct packed {
     draw_t               draw;
@@ -55,8 +69,7 @@ module setup_depth
     logic [7:0]          field; // the largest exponent field
   } extremes_t;
 
-  extremes_t extremes_d, extremes_q;
-  logic      extremes_valid;
+  extremes_t extremes_q;
 
   // Orders depths: float32 are a sign and a magnitude.
   function automatic vertex_depth_t order(vertex_depth_t z, logic is_float);
@@ -65,46 +78,47 @@ module setup_depth
     return !is_float ? z : z[31] ? -magnitude : magnitude;
   endfunction
 
-  vertex_depth_t [2:0] ordered;
-  logic                is_float, less10, less20, less21;
-  assign is_float = format_i == Float32;
-
-  always_comb begin
+  function automatic extremes_t extremes_of(draw_t draw, vertex_depth_t [2:0] z,
+                                            vertex_depth_t offset);
+    vertex_depth_t [2:0] ordered;
+    logic                less10, less20, less21;
+    extremes_t           extremes;
     for (int unsigned i = 0; i < 3; i++) begin
-      ordered[i] = order(z_i[i], is_float);
+      ordered[i] = order(z[i], draw.is_float);
     end
-    less10 = $signed(ordered[1]) < $signed(ordered[0]);
-    less20 = $signed(ordered[2]) < $signed(ordered[0]);
-    less21 = $signed(ordered[2]) < $signed(ordered[1]);
-    extremes_d.draw = '{
-      has_depth:  format_i != '0,
-      is_float:   is_float,
-      is_unorm16: format_i == Unorm16,
-      least_code: least_code_i,
-      most_code:  most_code_i
+    less10   = $signed(ordered[1]) < $signed(ordered[0]);
+    less20   = $signed(ordered[2]) < $signed(ordered[0]);
+    less21   = $signed(ordered[2]) < $signed(ordered[1]);
+    extremes = '{
+      draw:      draw,
+      z:         z,
+      offset:    offset,
+      min_index: less20 && less21 ? 2'd2 : less10 ? 2'd1 : 2'd0,
+      max_index: !less20 && !less21 ? 2'd2 : !less10 ? 2'd1 : 2'd0,
+      field:     exponent_of(offset[30:23])
     };
-    extremes_d.z         = z_i;
-    extremes_d.offset    = offset_i;
-    extremes_d.min_index = less20 && less21 ? 2'd2 : less10 ? 2'd1 : 2'd0;
-    extremes_d.max_index = !less20 && !less21 ? 2'd2 : !less10 ? 2'd1 : 2'd0;
-    extremes_d.field     = exponent_of(offset_i[30:23]);
     for (int unsigned i = 0; i < 3; i++) begin
-      if (exponent_of(z_i[i][30:23]) > extremes_d.field) begin
-        extremes_d.field = exponent_of(z_i[i][30:23]);
+      if (exponent_of(z[i][30:23]) > extremes.field) begin
+        extremes.field = exponent_of(z[i][30:23]);
       end
     end
-  end
+    return extremes;
+  endfunction
 
-  pipe_register #(
-    .Width ($bits(extremes_t))
-  ) u_extremes (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (valid_i),
-    .data_i  (extremes_d),
-    .valid_o (extremes_valid),
-    .data_o  (extremes_q)
-  );
+  draw_t draw;
+  assign draw = '{
+    has_depth:  format_i != '0,
+    is_float:   format_i == Float32,
+    is_unorm16: format_i == Unorm16,
+    least_code: least_code_i,
+    most_code:  most_code_i
+  };
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      extremes_q <= extremes_of(draw, z_i, offset_i);
+    end
+  end
 
   // Second register: the power of two above all of them, which is 1 in their words; how far each is below.
   typedef struct packed {
@@ -120,8 +134,7 @@ module setup_depth
     logic [5:0]          left;  // unorm
   } scale_t;
 
-  scale_t scale_d, scale_q;
-  logic   scale_valid;
+  scale_t scale_q;
 
   function automatic logic [VertexDepthBits-1:0] magnitude_of(vertex_depth_t z);
     return z[VertexDepthBits-1] ? -z : z;
@@ -130,53 +143,50 @@ module setup_depth
     return most - exponent_of(field);
   endfunction
 
-  always_comb begin
-    automatic logic [VertexDepthBits-1:0] magnitude;
-    magnitude = magnitude_of(extremes_q.offset);
-    scale_d   = '{
-      draw:        extremes_q.draw,
-      z:           extremes_q.z,
-      offset:      extremes_q.offset,
-      min_index:   extremes_q.min_index,
-      max_index:   extremes_q.max_index,
+  function automatic scale_t scale_of(extremes_t from);
+    logic [VertexDepthBits-1:0] magnitude;
+    scale_t                     scale;
+    magnitude = magnitude_of(from.offset);
+    scale     = '{
+      draw:        from.draw,
+      z:           from.z,
+      offset:      from.offset,
+      min_index:   from.min_index,
+      max_index:   from.max_index,
       beyond:      1'b0,
       exponent:    '0,
       down:        '0,
-      offset_down: down_from(extremes_q.field, extremes_q.offset[30:23]),
+      offset_down: down_from(from.field, from.offset[30:23]),
       left:        6'd32
     };
     for (int unsigned i = 0; i < 3; i++) begin
-      magnitude       |= magnitude_of(extremes_q.z[i]);
-      scale_d.down[i]  = down_from(extremes_q.field, extremes_q.z[i][30:23]);
+      magnitude     |= magnitude_of(from.z[i]);
+      scale.down[i]  = down_from(from.field, from.z[i][30:23]);
     end
-    if (extremes_q.draw.is_float) begin
-      scale_d.exponent = exponent_t'({1'b0, extremes_q.field}) - exponent_t'(126);
+    if (from.draw.is_float) begin
+      scale.exponent = exponent_t'({1'b0, from.field}) - exponent_t'(126);
     end else begin
       for (int unsigned i = 0; i < 3; i++) begin
-        scale_d.beyond |= extremes_q.z[i][VertexDepthBits-1:UnitBits] != '0;
+        scale.beyond |= from.z[i][VertexDepthBits-1:UnitBits] != '0;
       end
       for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
         if (magnitude[i]) begin
-          scale_d.exponent = exponent_t'(i + 1 - UnitBits);
-          scale_d.left     = 6'(32 - (i + 1 - UnitBits));
+          scale.exponent = exponent_t'(i + 1 - UnitBits);
+          scale.left     = 6'(32 - (i + 1 - UnitBits));
         end
       end
-      if (!scale_d.beyond) begin
-        scale_d.left = 6'd32;
+      if (!scale.beyond) begin
+        scale.left = 6'd32;
       end
     end
-  end
+    return scale;
+  endfunction
 
-  pipe_register #(
-    .Width ($bits(scale_t))
-  ) u_scale (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (extremes_valid),
-    .data_i  (scale_d),
-    .valid_o (scale_valid),
-    .data_o  (scale_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1]) begin
+      scale_q <= scale_of(extremes_q);
+    end
+  end
 
   // Third register: as words; the extremes as they are.
   typedef struct packed {
@@ -191,48 +201,44 @@ module setup_depth
     exponent_t           exponent;
   } words_t;
 
-  words_t words_d, words_q;
-  logic   words_valid;
+  words_t words_q;
 
-  always_comb begin
-    words_d = '{
-      draw:      scale_q.draw,
+  function automatic words_t words_of(scale_t from);
+    words_t words;
+    words = '{
+      draw:      from.draw,
       z:         '0,
-      z_min:     scale_q.z[scale_q.min_index],
-      z_max:     scale_q.z[scale_q.max_index],
-      min_index: scale_q.min_index,
-      max_index: scale_q.max_index,
-      offset:    word_t'(scale_q.offset),
-      beyond:    scale_q.beyond,
-      exponent:  scale_q.exponent
+      z_min:     from.z[from.min_index],
+      z_max:     from.z[from.max_index],
+      min_index: from.min_index,
+      max_index: from.max_index,
+      offset:    word_t'(from.offset),
+      beyond:    from.beyond,
+      exponent:  from.exponent
     };
-    if (scale_q.draw.is_float) begin
-      words_d.offset = word_of_float(scale_q.offset[CodeBits-1:0], scale_q.offset_down);
+    if (from.draw.is_float) begin
+      words.offset = word_of_float(from.offset[CodeBits-1:0], from.offset_down);
     end
     for (int unsigned i = 0; i < 3; i++) begin
-      if (!scale_q.draw.has_depth) begin
-        words_d.z[i] = '0;
-      end else if (scale_q.draw.is_float) begin
-        words_d.z[i] = word_of_float(scale_q.z[i][CodeBits-1:0], scale_q.down[i]);
+      if (!from.draw.has_depth) begin
+        words.z[i] = '0;
+      end else if (from.draw.is_float) begin
+        words.z[i] = word_of_float(from.z[i][CodeBits-1:0], from.down[i]);
       end else begin
-        words_d.z[i] = word_t'(scale_q.z[i]) <<< scale_q.left;
+        words.z[i] = word_t'(from.z[i]) <<< from.left;
       end
+    end
+    return words;
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[2]) begin
+      words_q <= words_of(scale_q);
     end
   end
 
   assign words_o = words_q.z;
   assign short_o = !words_q.draw.is_float && !words_q.beyond;
-
-  pipe_register #(
-    .Width ($bits(words_t))
-  ) u_words (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (scale_valid),
-    .data_i  (words_d),
-    .valid_o (words_valid),
-    .data_o  (words_q)
-  );
 
   // Fourth register: with the offset. Unorm sums are far below the word's range.
   typedef logic signed [WordBits:0] sum_t;
@@ -250,41 +256,35 @@ module setup_depth
     exponent_t           exponent;
   } sums_t;
 
-  sums_t sums_d, sums_q;
-  logic  sums_valid;
+  sums_t sums_q;
 
   function automatic logic [CodeBits-1:0] code_of(logic [CodeBits-1:0] bits);
     return bits[31] ? '0 : bits;
   endfunction
 
-  // Of unorm surfaces as they are.
-  word_t least_word, most_word;
-  assign least_word = words_q.draw.is_float ? words_q.z[words_q.min_index] : word_t'(words_q.z_min);
-  assign most_word  = words_q.draw.is_float ? words_q.z[words_q.max_index] : word_t'(words_q.z_max);
+  function automatic sums_t sums_of(words_t from);
+    word_t least_word, most_word; // of unorm surfaces as they are
+    least_word = from.draw.is_float ? from.z[from.min_index] : word_t'(from.z_min);
+    most_word  = from.draw.is_float ? from.z[from.max_index] : word_t'(from.z_max);
+    return '{
+      draw:     from.draw,
+      low:      sum_t'(least_word) + sum_t'(from.offset),
+      high:     sum_t'(most_word) + sum_t'(from.offset),
+      moved:    !from.draw.is_float || from.offset != '0,
+      min_code: code_of(from.z_min[CodeBits-1:0]),
+      max_code: code_of(from.z_max[CodeBits-1:0]),
+      word:     !from.draw.is_float && !from.beyond ? from.z[0] >>> ShortBits : from.z[0],
+      offset:   from.offset,
+      beyond:   from.beyond,
+      exponent: from.exponent
+    };
+  endfunction
 
-  assign sums_d = '{
-    draw:     words_q.draw,
-    low:      sum_t'(least_word) + sum_t'(words_q.offset),
-    high:     sum_t'(most_word) + sum_t'(words_q.offset),
-    moved:    !words_q.draw.is_float || words_q.offset != '0,
-    min_code: code_of(words_q.z_min[CodeBits-1:0]),
-    max_code: code_of(words_q.z_max[CodeBits-1:0]),
-    word:     short_o ? words_q.z[0] >>> ShortBits : words_q.z[0],
-    offset:   words_q.offset,
-    beyond:   words_q.beyond,
-    exponent: words_q.exponent
-  };
-
-  pipe_register #(
-    .Width ($bits(sums_t))
-  ) u_sums (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (words_valid),
-    .data_i  (sums_d),
-    .valid_o (sums_valid),
-    .data_o  (sums_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_q[3]) begin
+      sums_q <= sums_of(words_q);
+    end
+  end
 
   // Fifth register: 0 for what is negative; float32 sums with their top bit at bit 63; unorm codes, which a large sum
   // is beyond.
@@ -301,7 +301,7 @@ module setup_depth
     exponent_t           exponent;
   } codes_t;
 
-  codes_t codes_d, codes_q;
+  codes_t codes_q;
 
   function automatic logic [CodeBits-1:0] unorm_code(sum_t sum, logic unorm16);
     logic [WordBits-1:0] code;
@@ -315,37 +315,32 @@ module setup_depth
     return sum[WordBits] ? '0 : result;
   endfunction
 
-  always_comb begin
-    codes_d = '{
-      draw:     sums_q.draw,
-      low:      normalize_sum(sums_q.low),
-      high:     normalize_sum(sums_q.high),
-      moved:    sums_q.moved,
-      min_code: sums_q.min_code,
-      max_code: sums_q.max_code,
-      word:     sums_q.word,
-      offset:   sums_q.offset,
-      beyond:   sums_q.beyond,
-      exponent: sums_q.exponent
+  function automatic codes_t codes_of(sums_t from);
+    codes_t codes;
+    codes = '{
+      draw:     from.draw,
+      low:      normalize_sum(from.low),
+      high:     normalize_sum(from.high),
+      moved:    from.moved,
+      min_code: from.min_code,
+      max_code: from.max_code,
+      word:     from.word,
+      offset:   from.offset,
+      beyond:   from.beyond,
+      exponent: from.exponent
     };
-    if (!sums_q.draw.is_float) begin
-      codes_d.min_code = unorm_code(sums_q.low, sums_q.draw.is_unorm16);
-      codes_d.max_code = unorm_code(sums_q.high, sums_q.draw.is_unorm16);
+    if (!from.draw.is_float) begin
+      codes.min_code = unorm_code(from.low, from.draw.is_unorm16);
+      codes.max_code = unorm_code(from.high, from.draw.is_unorm16);
+    end
+    return codes;
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[4]) begin
+      codes_q <= codes_of(sums_q);
     end
   end
-
-  logic codes_valid;
-
-  pipe_register #(
-    .Width ($bits(codes_t))
-  ) u_codes (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (sums_valid),
-    .data_i  (codes_d),
-    .valid_o (codes_valid),
-    .data_o  (codes_q)
-  );
 
   // Sixth register: where float32 sums are rounded.
   typedef struct packed {
@@ -354,29 +349,21 @@ module setup_depth
     rounding_t high;
   } rounding_step_t;
 
-  rounding_step_t rounding_d, rounding_q;
-  logic           rounding_valid;
+  rounding_step_t rounding_q;
 
   function automatic rounding_t float_rounding(logic [5:0] zeros, exponent_t exponent);
     return rounding_of(place_t'(exponent) - place_t'(63) - place_t'($signed({1'b0, zeros})));
   endfunction
 
-  assign rounding_d = '{
-    codes: codes_q,
-    low:   float_rounding(codes_q.low.zeros, codes_q.exponent),
-    high:  float_rounding(codes_q.high.zeros, codes_q.exponent)
-  };
-
-  pipe_register #(
-    .Width ($bits(rounding_step_t))
-  ) u_rounding (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (codes_valid),
-    .data_i  (rounding_d),
-    .valid_o (rounding_valid),
-    .data_o  (rounding_q)
-  );
+  always_ff @(posedge clk_i) begin
+    if (valid_q[5]) begin
+      rounding_q <= '{
+        codes: codes_q,
+        low:   float_rounding(codes_q.low.zeros, codes_q.exponent),
+        high:  float_rounding(codes_q.high.zeros, codes_q.exponent)
+      };
+    end
+  end
 
   // Seventh register: the codes.
   typedef struct packed {
@@ -390,16 +377,15 @@ module setup_depth
     logic [CodeBits-1:0] max_code;
   } range_t;
 
-  range_t rounded_d, rounded_q;
-  logic   rounded_valid;
+  range_t rounded_q;
 
-  codes_t codes;
-  assign codes = rounding_q.codes;
-
-  always_comb begin
-    rounded_d = '0;
+  function automatic range_t rounded_of(rounding_step_t from);
+    codes_t codes;
+    range_t rounded;
+    codes   = from.codes;
+    rounded = '0;
     if (codes.draw.has_depth) begin
-      rounded_d = '{
+      rounded = '{
         least_code: codes.draw.least_code,
         most_code:  codes.draw.most_code,
         word:       codes.word,
@@ -410,25 +396,21 @@ module setup_depth
         max_code:   codes.max_code
       };
       if (codes.draw.is_float && codes.moved) begin
-        rounded_d.min_code = rounded_float(codes.low.value, rounding_q.low);
-        rounded_d.max_code = rounded_float(codes.high.value, rounding_q.high);
+        rounded.min_code = rounded_float(codes.low.value, from.low);
+        rounded.max_code = rounded_float(codes.high.value, from.high);
       end
+    end
+    return rounded;
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[6]) begin
+      rounded_q <= rounded_of(rounding_q);
     end
   end
 
-  pipe_register #(
-    .Width ($bits(range_t))
-  ) u_rounded (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (rounding_valid),
-    .data_i  (rounded_d),
-    .valid_o (rounded_valid),
-    .data_o  (rounded_q)
-  );
-
   // Eighth register: both codes within the limits.
-  range_t range_d, range_q;
+  range_t range_q;
 
   function automatic logic [CodeBits-1:0] limited(logic [CodeBits-1:0] code,
                                                   logic [CodeBits-1:0] least,
@@ -436,22 +418,13 @@ module setup_depth
     return code < least ? least : code > most ? most : code;
   endfunction
 
-  always_comb begin
-    range_d          = rounded_q;
-    range_d.min_code = limited(rounded_q.min_code, rounded_q.least_code, rounded_q.most_code);
-    range_d.max_code = limited(rounded_q.max_code, rounded_q.least_code, rounded_q.most_code);
+  always_ff @(posedge clk_i) begin
+    if (valid_q[7]) begin
+      range_q          <= rounded_q;
+      range_q.min_code <= limited(rounded_q.min_code, rounded_q.least_code, rounded_q.most_code);
+      range_q.max_code <= limited(rounded_q.max_code, rounded_q.least_code, rounded_q.most_code);
+    end
   end
-
-  pipe_register #(
-    .Width ($bits(range_t))
-  ) u_range (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (rounded_valid),
-    .data_i  (range_d),
-    .valid_o (valid_o),
-    .data_o  (range_q)
-  );
 
   assign word_o     = range_q.word;
   assign beyond_o   = range_q.beyond;

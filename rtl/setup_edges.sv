@@ -1,7 +1,8 @@
 // Edge equations of a drawn triangle at the pixel where its walk starts.
 //
 // Four registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2; E of edge
-// 0, and the fill rule. The three unbiased E add up to 2A everywhere. Four multipliers of StepBits.
+// 0, and the fill rule. The three unbiased E add up to 2A everywhere. Four multipliers of StepBits. What a register takes is
+// written where it loads: a simulator then computes nothing where nothing is valid.
 
 module setup_edges
   import raster_pkg::*;
@@ -44,9 +45,24 @@ module setup_edges
     return step_t'({1'b0, pixel, 1'b1, {(SubPixelBits - 1){1'b0}}});
   endfunction
 
-  pixel_t below;
-  assign below = same_tile(bounds_i.x_first, bounds_i.x_last) &&
-                 same_tile(bounds_i.y_first, bounds_i.y_last) ? InTile : InBlock;
+  // Bits of a pixel's number below those of the start.
+  function automatic pixel_t below(bounds_t bounds);
+    return same_tile(bounds.x_first, bounds.x_last) &&
+           same_tile(bounds.y_first, bounds.y_last) ? InTile : InBlock;
+  endfunction
+
+  // Bit i: register i holds a triangle.
+  logic [4:1] valid_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= '0;
+    end else begin
+      valid_q <= {valid_q[3:1], valid_i};
+    end
+  end
+
+  assign valid_o = valid_q[4];
 
   // First register. Vertex 0 lies on edge 1 and on edge 2, so both take the start relative to it.
   typedef struct packed {
@@ -58,30 +74,20 @@ module setup_edges
     logic        bottom_left_rule;
   } steps_t;
 
-  steps_t steps_d, steps_q;
-  logic   steps_valid;
+  steps_t steps_q;
 
-  always_comb begin
-    for (int unsigned i = 0; i < 3; i++) begin
-      steps_d.a[i] = step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
-      steps_d.b[i] = step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      for (int unsigned i = 0; i < 3; i++) begin
+        steps_q.a[i] <= step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
+        steps_q.b[i] <= step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
+      end
+      steps_q.x                <= centre(bounds_i.x_first & ~below(bounds_i)) - step_t'(x_i[0]);
+      steps_q.y                <= centre(bounds_i.y_first & ~below(bounds_i)) - step_t'(y_i[0]);
+      steps_q.area2            <= area2_i;
+      steps_q.bottom_left_rule <= bottom_left_rule_i;
     end
-    steps_d.x                = centre(bounds_i.x_first & ~below) - step_t'(x_i[0]);
-    steps_d.y                = centre(bounds_i.y_first & ~below) - step_t'(y_i[0]);
-    steps_d.area2            = area2_i;
-    steps_d.bottom_left_rule = bottom_left_rule_i;
   end
-
-  pipe_register #(
-    .Width ($bits(steps_t))
-  ) u_steps (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (valid_i),
-    .data_i  (steps_d),
-    .valid_o (steps_valid),
-    .data_o  (steps_q)
-  );
 
   // An edge that does not own the samples on it is lowered by 1.
   function automatic logic lowered(step_t a, step_t b, logic bottom_left_rule);
@@ -101,32 +107,22 @@ module setup_edges
     logic [2:0]  bias;
   } products_t;
 
-  products_t products_d, products_q;
-  logic      products_valid;
+  products_t products_q;
 
-  always_comb begin
-    products_d.a     = steps_q.a;
-    products_d.b     = steps_q.b;
-    products_d.area2 = steps_q.area2;
-    for (int unsigned i = 0; i < 2; i++) begin
-      products_d.across[i] = edge_t'(steps_q.a[i+1]) * edge_t'(steps_q.x);
-      products_d.down[i]   = edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
-    end
-    for (int unsigned i = 0; i < 3; i++) begin
-      products_d.bias[i] = lowered(steps_q.a[i], steps_q.b[i], steps_q.bottom_left_rule);
+  always_ff @(posedge clk_i) begin
+    if (valid_q[1]) begin
+      products_q.a     <= steps_q.a;
+      products_q.b     <= steps_q.b;
+      products_q.area2 <= steps_q.area2;
+      for (int unsigned i = 0; i < 2; i++) begin
+        products_q.across[i] <= edge_t'(steps_q.a[i+1]) * edge_t'(steps_q.x);
+        products_q.down[i]   <= edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
+      end
+      for (int unsigned i = 0; i < 3; i++) begin
+        products_q.bias[i] <= lowered(steps_q.a[i], steps_q.b[i], steps_q.bottom_left_rule);
+      end
     end
   end
-
-  pipe_register #(
-    .Width ($bits(products_t))
-  ) u_products (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (steps_valid),
-    .data_i  (products_d),
-    .valid_o (products_valid),
-    .data_o  (products_q)
-  );
 
   // Third register.
   typedef struct packed {
@@ -137,29 +133,19 @@ module setup_edges
     logic [2:0]  bias;
   } sums_t;
 
-  sums_t sums_d, sums_q;
-  logic  sums_valid;
+  sums_t sums_q;
 
-  always_comb begin
-    sums_d.a     = products_q.a;
-    sums_d.b     = products_q.b;
-    sums_d.area2 = products_q.area2;
-    sums_d.bias  = products_q.bias;
-    for (int unsigned i = 0; i < 2; i++) begin
-      sums_d.e[i] = edge_t'(products_q.across[i]) + edge_t'(products_q.down[i]);
+  always_ff @(posedge clk_i) begin
+    if (valid_q[2]) begin
+      sums_q.a     <= products_q.a;
+      sums_q.b     <= products_q.b;
+      sums_q.area2 <= products_q.area2;
+      sums_q.bias  <= products_q.bias;
+      for (int unsigned i = 0; i < 2; i++) begin
+        sums_q.e[i] <= edge_t'(products_q.across[i]) + edge_t'(products_q.down[i]);
+      end
     end
   end
-
-  pipe_register #(
-    .Width ($bits(sums_t))
-  ) u_sums (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (products_valid),
-    .data_i  (sums_d),
-    .valid_o (sums_valid),
-    .data_o  (sums_q)
-  );
 
   // Fourth register.
   typedef struct packed {
@@ -169,30 +155,19 @@ module setup_edges
     logic [2:0]  bias;
   } edges_t;
 
-  edges_t edges_d, edges_q;
-  edge_t  e0;
+  edges_t edges_q;
 
-  assign e0 = edge_t'({1'b0, sums_q.area2}) - sums_q.e[0] - sums_q.e[1];
-
-  always_comb begin
-    edges_d.a    = sums_q.a;
-    edges_d.b    = sums_q.b;
-    edges_d.bias = sums_q.bias;
-    edges_d.e[0] = e0 - edge_t'({1'b0, sums_q.bias[0]});
-    edges_d.e[1] = sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
-    edges_d.e[2] = sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
+  always_ff @(posedge clk_i) begin
+    if (valid_q[3]) begin
+      edges_q.a    <= sums_q.a;
+      edges_q.b    <= sums_q.b;
+      edges_q.bias <= sums_q.bias;
+      edges_q.e[0] <= edge_t'({1'b0, sums_q.area2}) - sums_q.e[0] - sums_q.e[1]
+                      - edge_t'({1'b0, sums_q.bias[0]});
+      edges_q.e[1] <= sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
+      edges_q.e[2] <= sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
+    end
   end
-
-  pipe_register #(
-    .Width ($bits(edges_t))
-  ) u_edges (
-    .clk_i   (clk_i),
-    .rst_ni  (rst_ni),
-    .valid_i (sums_valid),
-    .data_i  (edges_d),
-    .valid_o (valid_o),
-    .data_o  (edges_q)
-  );
 
   assign e_o    = edges_q.e;
   assign a_o    = edges_q.a;

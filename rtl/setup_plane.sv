@@ -113,9 +113,9 @@ module setup_plane
     logic       y_negative;
   } numerators_t;
 
-  numerators_t [Divided:7]      wait_q;
-  area_t [Divided:1]            area_q;
-  shift_t [Divided:1]           shift_q;
+  numerators_t                  wait_q [7:Divided] /*verilator split_var*/;
+  area_t                        area_q [1:Divided] /*verilator split_var*/;
+  shift_t                       shift_q [1:Divided] /*verilator split_var*/;
   logic [Latency-1:4]           short_q;
   logic [Latency-1:Divided+1]   x_negative_q, y_negative_q;
 
@@ -128,20 +128,9 @@ module setup_plane
         y_negative: y_q[NumeratorBits]
       };
     end
-    for (int unsigned i = 8; i <= Divided; i++) begin
-      if (valid[i-1]) begin
-        wait_q[i] <= wait_q[i-1];
-      end
-    end
     if (valid[0]) begin
       area_q[1]  <= area2_i;
       shift_q[1] <= shift_i;
-    end
-    for (int unsigned i = 2; i <= Divided; i++) begin
-      if (valid[i-1]) begin
-        area_q[i]  <= area_q[i-1];
-        shift_q[i] <= shift_q[i-1];
-      end
     end
     if (valid[3]) begin
       short_q[4] <= short_i;
@@ -163,6 +152,23 @@ module setup_plane
     end
   end
 
+  for (genvar i = 2; i <= Divided; i++) begin : gen_area
+    always_ff @(posedge clk_i) begin
+      if (valid[i-1]) begin
+        area_q[i]  <= area_q[i-1];
+        shift_q[i] <= shift_q[i-1];
+      end
+    end
+  end
+
+  for (genvar i = 8; i <= Divided; i++) begin : gen_wait
+    always_ff @(posedge clk_i) begin
+      if (valid[i-1]) begin
+        wait_q[i] <= wait_q[i-1];
+      end
+    end
+  end
+
   // The area's top bit goes to the top, and the numerators along. Their upper part is the first remainder.
   logic [5:0] zeros;
   assign zeros = 6'(AreaBits - 32) - shift_q[Divided];
@@ -172,14 +178,14 @@ module setup_plane
   endfunction
 
   // Element i is at the beginning of step i.
-  logic [26:0]             factor_q     [Steps];
-  logic [AreaBits-1:0]     divisor_q    [Steps];
-  logic [AreaBits-1:0]     x_remainder [Steps+1];
-  logic [AreaBits-1:0]     y_remainder [Steps+1];
-  logic [DividendBits-1:0] x_dividend [Steps+1];
-  logic [DividendBits-1:0] y_dividend [Steps+1];
-  logic [GradientBits-1:0] x_quotient [Steps+1];
-  logic [GradientBits-1:0] y_quotient [Steps+1];
+  logic [26:0]             factor_q     [Steps] /*verilator split_var*/;
+  logic [AreaBits-1:0]     divisor_q    [Steps] /*verilator split_var*/;
+  logic [AreaBits-1:0]     x_remainder [Steps+1] /*verilator split_var*/;
+  logic [AreaBits-1:0]     y_remainder [Steps+1] /*verilator split_var*/;
+  logic [DividendBits-1:0] x_dividend [Steps+1] /*verilator split_var*/;
+  logic [DividendBits-1:0] y_dividend [Steps+1] /*verilator split_var*/;
+  logic [GradientBits-1:0] x_quotient [Steps+1] /*verilator split_var*/;
+  logic [GradientBits-1:0] y_quotient [Steps+1] /*verilator split_var*/;
 
   assign x_quotient[0] = '0;
   assign y_quotient[0] = '0;

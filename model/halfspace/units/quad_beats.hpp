@@ -37,7 +37,9 @@ template <int TileSize>
 std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& passed,
                                      const TileCodes<TileSize>& codes, const Widths& widths) {
   const Coverage& coverage = burst.coverage;
+  const int most = TileSize * TileSize / 4 / widths.TestWidth + 1;
   std::vector<TestedBeat> beats;
+  beats.reserve(static_cast<std::size_t>(most));  // they are large
   int quads = 0;
   for_each_quad<TileSize>(burst, [&](const Quad& quad) {
     const auto place = static_cast<std::size_t>(quads++ % widths.TestWidth);

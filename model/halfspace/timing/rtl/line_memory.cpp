@@ -10,6 +10,20 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "words of ports are copied to and from bytes of memory");
 
+/// The codes of a line of `sample` bytes each, 2 or 4.
+void read_line(const std::uint8_t* bytes, std::size_t sample, std::span<std::uint32_t> codes) {
+  if (sample == sizeof(std::uint32_t)) {
+    std::memcpy(codes.data(), bytes, codes.size_bytes());
+    return;
+  }
+  for (std::uint32_t& code : codes) {
+    std::uint16_t half = 0;
+    std::memcpy(&half, bytes, sizeof half);
+    bytes += sizeof half;
+    code = half;
+  }
+}
+
 }  // namespace
 
 LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surfaces,
@@ -90,12 +104,12 @@ void LineMemory::read_surface(const ZSurface& place, std::uint32_t clear_code, S
         surface.codes.tile(static_cast<int>(tile % place.tiles_x), static_cast<int>(tile / place.tiles_x));
     for (std::uint32_t line = (place.first_tile + tile) * parts; line < (place.first_tile + tile + 1) * parts;
          ++line) {
-      for (std::uint32_t s = 0; s < samples_; ++s, ++codes) {
-        *codes = cleared_[line] ? clear_code : 0;
-        if (!cleared_[line]) {
-          std::memcpy(codes, &bytes_[std::size_t{line} * stride_ + s * sample], sample);
-        }
+      if (cleared_[line]) {
+        std::fill_n(codes, samples_, clear_code);
+      } else {
+        read_line(&bytes_[std::size_t{line} * stride_], sample, {codes, samples_});
       }
+      codes += samples_;
     }
   }
 }
