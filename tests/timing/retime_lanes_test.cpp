@@ -34,26 +34,6 @@ void check_batch(Retimer& retimer, const std::vector<Config>& machines) {
   });
 }
 
-/// Machines that differ from `recorded` in time alone, more than go into a pass with its z cache.
-std::vector<Config> random_machines(Random& random, const Config& recorded, std::size_t count) {
-  std::vector<Config> machines;
-  for (std::size_t i = 0; i < count; ++i) {
-    Config config = random_timing(random, recorded);
-    if (i % 8 != 0) {
-      config.z_cache.lines = recorded.z_cache.lines;
-      config.z_cache.ways = recorded.z_cache.ways;
-      config.z_cache.parts = recorded.z_cache.parts;
-      config.z_cache.misses_in_flight = std::max(config.z_cache.misses_in_flight, recorded.z_cache.parts);
-      config.z_cache.write_buffers = std::max(config.z_cache.write_buffers, recorded.z_cache.parts);
-    }
-    if (random.between(0, 3) != 0) {  // fast enough for 16 bits
-      config.memory.latency = std::min(config.memory.latency, 400);
-    }
-    machines.push_back(config);
-  }
-  return machines;
-}
-
 struct NoteEnds : ReplayHooks {
   const RecurrenceCore<OneMachine, NoStalls, NoProbe>& core;
   RetimedFrame& result;

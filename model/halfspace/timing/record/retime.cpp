@@ -3,100 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <limits>
-#include <tuple>
 #include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/timing/recurrence/core.hpp"
+#include "halfspace/numerics/parallel.hpp"
+#include "halfspace/timing/record/retime_passes.hpp"
+#include "halfspace/timing/recurrence/machine.hpp"
 
 namespace halfspace {
-namespace {
-
-/// Notes the end of every draw.
-struct DrawEnds : ReplayHooks {
-  const RecurrenceCore<OneMachine, NoStalls, NoProbe>& core;
-  std::vector<std::uint64_t>& ends;
-
-  void end_segment(const StreamSegment& segment, bool bursts) {
-    if (segment.kind == StreamSegment::Kind::kDraw) {
-      const std::uint64_t before = ends.empty() ? 0 : ends.back();
-      ends.push_back(bursts ? core.sink_next() - 1 : before);
-    }
-  }
-};
-
-/// On the machine whose z cache is that of `trace`.
-RetimedFrame retime_one(const FrameRecord& record, const ZTrace& trace, const Config& config) {
-  NoProbe probe;
-  RecurrenceMemory<OneMachine> memory = recurrence_memory(config, trace.rows);
-  RecurrenceCore<OneMachine, NoStalls, NoProbe> core(memory, NoStalls{}, probe);
-  RetimedFrame result;
-  DrawEnds hooks{{}, core, result.draw_end};
-  bool bursts = false;
-  replay(whole_stream(record, trace), core, hooks, bursts, [&](std::uint32_t surface) {
-    return static_cast<std::uint64_t>(fast_clear_cycles(record.surfaces[surface].tiles, config));
-  });
-  result.cycles = core.flush(trace.flush, static_cast<std::uint32_t>(config.z_cache.lines));
-  return result;
-}
-
-/// Positions of the machines that share the shape of the z cache. Throws as check_retimable.
-std::vector<std::vector<std::size_t>> groups(const FrameRecord& record, std::span<const Config> configs) {
-  std::vector<std::vector<std::size_t>> groups;
-  std::vector<ZCacheShape> shapes;
-  for (std::size_t i = 0; i < configs.size(); ++i) {
-    check_retimable(record, configs[i]);
-    const ZCacheShape shape = z_cache_shape(configs[i]);
-    const auto at = static_cast<std::size_t>(std::ranges::find(shapes, shape) - shapes.begin());
-    if (at == shapes.size()) {
-      shapes.push_back(shape);
-      groups.emplace_back();
-    }
-    groups[at].push_back(i);
-  }
-  return groups;
-}
-
-/// Fills the `results` of a group, whose z cache is that of `trace`.
-void retime_group(const FrameRecord& record, const ZTrace& trace, const FrameWork& work,
-                  std::span<const Config> configs, std::span<const std::size_t> group,
-                  std::span<RetimedFrame> results) {
-  struct Place {
-    bool slow;
-    std::array<int, kFifos> capacity;
-    std::size_t i;
-  };
-  std::vector<Place> places;
-  places.reserve(group.size());
-  for (const std::size_t i : group) {
-    const bool wide = longest_time(work, configs[i]) > std::numeric_limits<std::uint32_t>::max();
-    if (wide || group.size() == 1) {  // it needs 64 bits, or is faster without lanes
-      results[i] = retime_one(record, trace, configs[i]);
-      continue;
-    }
-    const bool slow = detail::longest_job(configs[i], work.most_steps) > detail::kNarrowRoom;
-    places.push_back({.slow = slow, .capacity = capacities(configs[i]), .i = i});
-  }
-  // a pass is as wide as its slowest machine needs, and costs less where capacities are the same
-  std::ranges::sort(places, {},
-                    [](const Place& place) { return std::tie(place.slow, place.capacity, place.i); });
-  std::vector<Config> machines;
-  machines.reserve(places.size());
-  for (const Place& place : places) {
-    machines.push_back(configs[place.i]);
-  }
-  std::vector<RetimedFrame> retimed(places.size());
-  detail::retime_lanes(record, trace, machines, work.most_steps, retimed.data());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    results[places[k].i] = std::move(retimed[k]);
-  }
-}
-
-}  // namespace
 
 void check_retimable(const FrameRecord& record, const Config& config) {
   if (same_packets(record.config, config)) {
@@ -114,18 +30,49 @@ void check_retimable(const FrameRecord& record, const Config& config) {
   }
 }
 
-Retimer::Retimer(FrameRecord record) : record_(std::move(record)) { traced(z_cache_shape(record_.config)); }
+Retimer::Retimer(FrameRecord record, int threads) : record_(std::move(record)), threads_(threads) {
+  traced(z_cache_shape(record_.config));
+}
 
-Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
-  for (Traced& known : traced_) {
-    if (known.shape == shape) {
-      return known;
+void Retimer::trace_all(std::span<const ZCacheShape> shapes) {
+  std::list<Traced> found;
+  std::vector<Traced*> places;
+  for (const ZCacheShape& shape : shapes) {
+    if (std::ranges::find(traced_, shape, &Traced::shape) == traced_.end()) {
+      places.push_back(&found.emplace_back(Traced{.shape = shape, .trace = {}, .work = {}}));
     }
   }
-  ZTrace trace = trace_z_cache(record_, shape);
-  const FrameWork work = frame_work(whole_stream(record_, trace), record_.surfaces, trace.flush);
-  traced_.push_back({.shape = shape, .trace = std::move(trace), .work = work});
-  return traced_.back();
+  parallel_for(places.size(), threads_, [&](std::size_t i) {
+    Traced& place = *places[i];
+    place.trace = trace_z_cache(record_, place.shape);
+    place.work = frame_work(whole_stream(record_, place.trace), record_.surfaces, place.trace.flush);
+  });
+  traced_.splice(traced_.end(), found);
+}
+
+Retimer::Traced& Retimer::traced(const ZCacheShape& shape) {
+  trace_all({&shape, 1});
+  return *std::ranges::find(traced_, shape, &Traced::shape);
+}
+
+std::vector<Retimer::Group> Retimer::groups(std::span<const Config> configs) {
+  std::vector<ZCacheShape> shapes;
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < configs.size(); ++i) {
+    check_retimable(record_, configs[i]);
+    const ZCacheShape shape = z_cache_shape(configs[i]);
+    const auto at = static_cast<std::size_t>(std::ranges::find(shapes, shape) - shapes.begin());
+    if (at == shapes.size()) {
+      shapes.push_back(shape);
+      groups.emplace_back();
+    }
+    groups[at].machines.push_back(i);
+  }
+  trace_all(shapes);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    groups[i].traced = &traced(shapes[i]);
+  }
+  return groups;
 }
 
 RetimedFrame Retimer::retime(const Config& config) {
@@ -134,11 +81,15 @@ RetimedFrame Retimer::retime(const Config& config) {
 }
 
 std::vector<RetimedFrame> Retimer::retime(std::span<const Config> configs) {
-  std::vector<RetimedFrame> results(configs.size());
-  for (const std::vector<std::size_t>& group : groups(record_, configs)) {
-    const Traced& known = traced(z_cache_shape(configs[group.front()]));
-    retime_group(record_, known.trace, known.work, configs, group, results);
+  std::vector<RetimeGroup> whole;
+  for (Group& group : groups(configs)) {
+    whole.push_back({.record = &record_,
+                     .trace = &group.traced->trace,
+                     .work = &group.traced->work,
+                     .machines = std::move(group.machines)});
   }
+  std::vector<RetimedFrame> results(configs.size());
+  retime_groups(whole, configs, threads_, results);
   return results;
 }
 
@@ -152,16 +103,23 @@ std::vector<std::uint64_t> Retimer::estimate(std::span<const Config> configs) {
     std::ranges::transform(exact, cycles.begin(), &RetimedFrame::cycles);
     return cycles;
   }
-  std::vector<RetimedFrame> retimed(configs.size());
-  for (const std::vector<std::size_t>& group : groups(record_, configs)) {
-    Traced& known = traced(z_cache_shape(configs[group.front()]));
-    if (!known.sample) {
-      known.sample = sample_->trace(known.trace);
+  const std::vector<Group> all = groups(configs);
+  std::vector<RetimeGroup> sampled(all.size());
+  parallel_for(all.size(), threads_, [&](std::size_t i) {
+    std::optional<SampleTrace>& sample = all[i].traced->sample;
+    if (!sample) {
+      sample = sample_->trace(all[i].traced->trace);
     }
-    const SampleTrace& sample = *known.sample;
-    retime_group(sample_->packets(), sample.trace, sample.work, configs, group, retimed);
-    for (const std::size_t i : group) {
-      cycles[i] = sample_->cycles(configs[i], retimed[i], sample);
+    sampled[i] = {.record = &sample_->packets(),
+                  .trace = &sample->trace,
+                  .work = &sample->work,
+                  .machines = all[i].machines};
+  });
+  std::vector<RetimedFrame> retimed(configs.size());
+  retime_groups(sampled, configs, threads_, retimed);
+  for (const Group& group : all) {
+    for (const std::size_t i : group.machines) {
+      cycles[i] = sample_->cycles(configs[i], retimed[i], *group.traced->sample);
     }
   }
   return cycles;

@@ -21,10 +21,11 @@ namespace halfspace {
 void check_retimable(const FrameRecord& record, const Config& config);
 
 /// Times a record on machines. What the z cache says is found once for each shape of it, for the recorded one
-/// at the start, so a machine with another cache costs more the first time.
+/// at the start, so a machine with another cache costs more the first time. Batches of machines go to up to
+/// `threads` threads.
 class Retimer {
  public:
-  explicit Retimer(FrameRecord record);
+  explicit Retimer(FrameRecord record, int threads = 1);
 
   [[nodiscard]] const FrameRecord& record() const { return record_; }
 
@@ -48,9 +49,19 @@ class Retimer {
     FrameWork work;
     std::optional<SampleTrace> sample{};
   };
+  /// Machines with the same z cache, by their index.
+  struct Group {
+    Traced* traced = nullptr;
+    std::vector<std::size_t> machines;
+  };
+  /// Finds what these z caches say, where it is not known.
+  void trace_all(std::span<const ZCacheShape> shapes);
   Traced& traced(const ZCacheShape& shape);
+  /// Throws as check_retimable.
+  std::vector<Group> groups(std::span<const Config> configs);
 
   FrameRecord record_;
+  int threads_;
   std::list<Traced> traced_;           ///< a list: references stay valid
   std::optional<FrameSample> sample_;  ///< once something is estimated
 };
@@ -62,6 +73,9 @@ namespace detail {
 /// of a triangle.
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
                   std::uint32_t most_steps, RetimedFrame* results);
+
+/// Machines that fill the lanes of a pass of 16 bits on this processor: of two vectors, so even.
+std::size_t pass_machines();
 
 /// Lanes of 16 bits have room for so many cycles twice: before times are looked after, and until then.
 inline constexpr std::uint64_t kNarrowRoom = 0x7FFF;

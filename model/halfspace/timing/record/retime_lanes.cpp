@@ -267,6 +267,14 @@ std::size_t retime_narrow(const FrameRecord& record, const ZTrace& trace, std::s
 
 }  // namespace
 
+std::size_t pass_machines() {
+#if HWY_TARGET != HWY_SCALAR
+  return 2 * NarrowLanes::Time::kMachines;
+#else
+  return 2 * WideLanes::Time::kMachines;
+#endif
+}
+
 void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
                   [[maybe_unused]] std::uint32_t most_steps, RetimedFrame* results) {
   while (!configs.empty()) {
@@ -288,7 +296,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace halfspace::detail {
 
+HWY_EXPORT(pass_machines);
 HWY_EXPORT(retime_group);
+
+std::size_t pass_machines() { return HWY_DYNAMIC_DISPATCH(pass_machines)(); }
 
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
                   std::uint32_t most_steps, RetimedFrame* results) {
