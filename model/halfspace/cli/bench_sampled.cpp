@@ -15,6 +15,7 @@
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/speed/speed_table.hpp"
 #include "halfspace/timing/record/retime.hpp"
 
 namespace halfspace {
@@ -23,6 +24,7 @@ namespace {
 struct SampledOptions {
   std::vector<std::string> inputs;
   MachineOptions machine;
+  ThreadsOption threads;
   int machines = 160;
   std::uint64_t seed = 1;
   int repeat = 3;
@@ -101,10 +103,11 @@ struct SampledErrors {
 
 void print_frame(const std::string& input, const SampledOptions& options, SampledErrors& all) {
   const Config base = options.machine.config();
-  const FrameRecord record = record_frame(load(input), base);
+  const FrameRecord record =
+      record_frame(load(input), base, {.count_pixels = false, .threads = options.threads.count});
   const ZTrace trace = trace_z_cache(record, z_cache_shape(base));
   const std::vector<Config> machines = random_machines(base, options.machines, options.seed);
-  Retimer retimer(record);
+  Retimer retimer(record, options.threads.count);
   std::vector<RetimedFrame> exact = retimer.retime(machines);  // finds what the z caches say
   std::vector<std::uint64_t> estimated = retimer.estimate(machines);
   std::vector<double> exact_times;
@@ -138,8 +141,8 @@ void print_frame(const std::string& input, const SampledOptions& options, Sample
 }
 
 void bench_sampled(const SampledOptions& options) {
-  fmt::print("{} machines, seed {}; one thread, medians of {} passes\n\n", options.machines, options.seed,
-             options.repeat);
+  fmt::print("{} machines, seed {}; {}, medians of {} passes\n\n", options.machines, options.seed,
+             threads_text(options.threads.count), options.repeat);
   fmt::print(
       "| frame | tile jobs | cycles on the first | retime, us a machine | sampled, us a machine | retime / "
       "sampled | sampled, Mcycles/s | making the sample, ms | mean error's magnitude % | worst error % |\n");
@@ -159,6 +162,7 @@ void add_bench_sampled(CLI::App& bench) {
       bench.add_subcommand("sampled", "error and run time of the sampled fidelity over random machines");
   command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
+  options->threads.add_to(*command, "Each times other machines");
   command->add_option("--machines", options->machines, "number of machines, the configured one first")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();

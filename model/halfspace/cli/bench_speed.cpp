@@ -26,6 +26,7 @@ struct SpeedOptions {
   std::vector<std::string> inputs;
   MachineOptions machine;
   CoreOption core;
+  ThreadsOption threads;
   std::string depth;
   int repeat = 7;
   bool no_llvmpipe = false;
@@ -98,14 +99,21 @@ class SpeedBench {
   }
 
   SpeedTable measure_all() {
-    SpeedTable table{.config = config_, .repeat = options_.repeat, .contenders = {}, .rows = {}};
+    SpeedTable table{.config = config_,
+                     .repeat = options_.repeat,
+                     .threads = options_.threads.count,
+                     .contenders = {},
+                     .rows = {}};
     for (const Runner& runner : runners_) {
       table.contenders.push_back(runner.contender);
     }
     for (const std::string& input : options_.all_inputs()) {
       frame_ = options_.frame(input);
-      functional_.emplace(config_, Watch{.count_pixels = false, .core = options_.core.core()});
-      counts_pixels_.emplace(config_, Watch{.core = options_.core.core()});
+      const Watch watch{.core = options_.core.core(), .threads = options_.threads.count};
+      counts_pixels_.emplace(config_, watch);
+      Watch counts_none = watch;
+      counts_none.count_pixels = false;
+      functional_.emplace(config_, counts_none);
       loop_.emplace(frame_, config_);
       if (llvmpipe_) {
         llvmpipe_->load(frame_, config_);
@@ -207,6 +215,7 @@ void add_bench_speed(CLI::App& bench) {
                     "frames, meshes or synthetic:NAME (default: the ten full lists, which take minutes)");
   options->machine.add_to(*speed);
   options->core.add_to(*speed);
+  options->threads.add_to(*speed, "The model uses them");
   speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
       ->check(CLI::IsMember({"unorm24", "float32"}))
       ->type_name("FORMAT");

@@ -8,6 +8,7 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/speed/speed_table.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
@@ -18,6 +19,7 @@ namespace {
 struct TimeOptions {
   std::vector<std::string> inputs;
   MachineOptions machine;
+  ThreadsOption threads;
   int repeat = 9;
 };
 
@@ -38,7 +40,10 @@ std::vector<Config> neighbours(const Config& config) {
   return machines;
 }
 
-void print_times(const Frame& frame, const Config& config, int repeat) {
+void print_times(const Frame& frame, const Config& config, const TimeOptions& options) {
+  const Watch watch{.threads = options.threads.count};
+  EngineOptions timed;
+  timed.watch = watch;
   std::vector<double> functional;
   std::vector<double> recurrence;
   std::vector<double> systemc;
@@ -48,15 +53,16 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
   std::vector<double> singly;
   std::uint64_t cycles = 0;
   std::uint64_t events = 0;
-  Retimer retimer(record_frame(frame, config));
+  Retimer retimer(record_frame(frame, config, {.count_pixels = false, .threads = watch.threads}),
+                  watch.threads);
   const std::vector<Config> machines = neighbours(config);
-  for (int i = 0; i <= repeat; ++i) {
+  for (int i = 0; i <= options.repeat; ++i) {
     RetimedFrame retimed;
     std::vector<RetimedFrame> all;
     std::vector<RetimedFrame> each;
     const double times[] = {
-        milliseconds([&] { run_functional(frame, config); }),
-        milliseconds([&] { cycles = run_recurrence(frame, config).cycles.cycles; }),
+        milliseconds([&] { run_functional(frame, config, watch); }),
+        milliseconds([&] { cycles = run_recurrence(frame, config, timed).cycles.cycles; }),
         milliseconds([&] { events = run_systemc(frame, config).cycles.cycles; }),
         milliseconds([&] { retimed = retimer.retime(config); }),
         milliseconds([&] { all = retimer.retime(machines); }),
@@ -91,14 +97,14 @@ void print_times(const Frame& frame, const Config& config, int repeat) {
 
 void bench_time(const TimeOptions& options) {
   const Config config = options.machine.config();
-  fmt::print("one thread, medians of {} runs in turns, ms\n\n", options.repeat);
+  fmt::print("{}, medians of {} runs in turns, ms\n\n", threads_text(options.threads.count), options.repeat);
   fmt::print(
       "| frame | cycles | functional | recurrence | systemc | retime | retime 64 | sampled 64 | recurrence / "
       "functional | systemc / recurrence | recurrence / retime | 64 x retime / retime 64 | 64 x recurrence / "
       "retime 64 | retime 64 / sampled 64 |\n");
   fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    print_times(load(input), config, options.repeat);
+    print_times(load(input), config, options);
   }
 }
 
@@ -109,6 +115,7 @@ void add_bench_time(CLI::App& bench) {
   CLI::App* command = bench.add_subcommand("time", "run time of every fidelity and of re-timing");
   command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
+  options->threads.add_to(*command, "All but systemc use them");
   command->add_option("--repeat", options->repeat, "number of timed runs")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -158,6 +158,12 @@ Core CoreOption::core() const {
   return static_cast<Core>(std::ranges::find(kCoreName, name) - kCoreName.begin());
 }
 
+void ThreadsOption::add_to(CLI::App& command, const std::string& share) {
+  command.add_option("--threads", count, "number of threads; results are the same with any. " + share)
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
+}
+
 void StallOptions::add_to(CLI::App& command) {
   command
       .add_option("--stall", stalls,

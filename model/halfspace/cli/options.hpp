@@ -33,6 +33,14 @@ struct CoreOption {
   [[nodiscard]] Core core() const;
 };
 
+/// --threads.
+struct ThreadsOption {
+  int count = 1;
+
+  /// `share`: what each of them does.
+  void add_to(CLI::App& command, const std::string& share);
+};
+
 /// INPUT and, for meshes, the camera.
 struct InputOptions {
   std::string path;

@@ -26,6 +26,7 @@ struct RetimeOptions {
   std::vector<std::string> settings;
   std::vector<std::string> sweeps;
   std::string fidelity = "recurrence";
+  ThreadsOption threads;
   std::string csv;
   std::string json;
 };
@@ -105,7 +106,7 @@ void retime(const RetimeOptions& options) {
   for (const std::string& text : options.sweeps) {
     sweeps.push_back(parse_sweep(text));
   }
-  Retimer retimer(read_record(options.record));
+  Retimer retimer(read_record(options.record), options.threads.count);
   const FrameRecord& record = retimer.record();
   std::vector<Row> machines;
   std::vector<Config> configs;
@@ -183,6 +184,7 @@ void add_retime_command(CLI::App& app, int& /*status*/) {
                    "recurrence: exact; sampled: an estimate, ten times as fast for a large frame")
       ->check(CLI::IsMember({"recurrence", "sampled"}))
       ->capture_default_str();
+  options->threads.add_to(*command, "Each times other machines");
   command->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");
   command->add_option("--json", options->json, "write the table as JSON too")->type_name("FILE");
   command->callback([options] { retime(*options); });

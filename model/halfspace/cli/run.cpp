@@ -24,6 +24,7 @@ struct RunCommand {
   InputOptions input;
   MachineOptions machine;
   CoreOption core;
+  ThreadsOption threads;
   StallOptions stalls;
   TimelineOptions timeline;
   std::string fidelity = "functional";
@@ -39,6 +40,7 @@ struct RunCommand {
 /// Refuses options that the fidelity does not support.
 void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, options.core.core() != Core::kAuto, "--core", &FidelityInfo::core);
+  require(fidelity, options.threads.count > 1, "--threads above 1", &FidelityInfo::threads);
   require(fidelity, !options.stalls.stalls.empty(), "--stall", &FidelityInfo::packets);
   require(fidelity, !options.stalls.seed.empty(), "--seed", &FidelityInfo::packets);
   require(fidelity, options.timeline.wanted, "--timeline", &FidelityInfo::timeline);
@@ -106,7 +108,8 @@ int run_command(const RunCommand& command) {
                    .count_pixels = folder.has_value(),
                    .keep_sums = pictures,
                    .observer = &observer,
-                   .core = command.core.core()};
+                   .core = command.core.core(),
+                   .threads = command.threads.count};
   const RunResult result = run(fidelity, frame, config, options);
   observer.finish();
   if (timeline) {
@@ -138,6 +141,9 @@ void add_run_command(CLI::App& app, int& status) {
       ->check(CLI::IsMember(fidelities))
       ->capture_default_str();
   options->core.add_to(*command);
+  options->threads.add_to(*command,
+                          "Functional: each draws in columns of blocks of its own; recurrence: one runs the "
+                          "units, one times packets; systemc and rtl have one");
   options->stalls.add_to(*command);
   CLI::Option* out =
       command->add_option("--out", options->out, "folder for results (default: print only the table)")

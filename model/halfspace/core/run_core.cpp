@@ -4,9 +4,22 @@
 
 #include "halfspace/fast/fast_core.hpp"
 #include "halfspace/machine/in_order.hpp"
+#include "halfspace/machine/threaded_reader.hpp"
 #include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
+namespace {
+
+FrameResult run_units(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
+  if (core_of(config, watch, reader) == Core::kReadable) {
+    return run_in_order(frame, config, watch, reader);
+  }
+  fast::FastCore core(config, watch, reader);
+  core.run(frame);
+  return core.take();
+}
+
+}  // namespace
 
 Core core_of(const Config& config, const Watch& watch, const StreamReader* reader) {
   if (watch.core == Core::kReadable) {
@@ -20,12 +33,13 @@ Core core_of(const Config& config, const Watch& watch, const StreamReader* reade
 }
 
 FrameResult run_core(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
-  if (core_of(config, watch, reader) == Core::kReadable) {
-    return run_in_order(frame, config, watch, reader);
+  if (reader == nullptr || watch.threads < 2 || shows_cycles(watch, *reader)) {
+    return run_units(frame, config, watch, reader);
   }
-  fast::FastCore core(config, watch, reader);
-  core.run(frame);
-  return core.take();
+  ThreadedReader beside(*reader);
+  FrameResult result = run_units(frame, config, watch, &beside);
+  beside.finish();
+  return result;
 }
 
 }  // namespace halfspace

@@ -73,7 +73,7 @@ class InOrderRun {
     if (reader != nullptr) {
       stream_.emplace(*reader, frame.name);
       wants_tiles_ = reader->wants_tiles();
-      wants_cycles_ = reader->has_time() && observer_ != nullptr && observer_->wants_quads();
+      wants_cycles_ = shows_cycles(watch, *reader);
       reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
     }
   }
@@ -250,6 +250,10 @@ class InOrderRun {
 };
 
 }  // namespace
+
+bool shows_cycles(const Watch& watch, const StreamReader& reader) {
+  return reader.has_time() && watch.observer != nullptr && watch.observer->wants_quads();
+}
 
 FrameResult run_in_order(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
   return with_tile_size(config.tile_walker.tile_size,

@@ -50,14 +50,17 @@ class PacketObserver {
   virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };
 
-/// What a run keeps beside its counts.
+/// More than a processor is likely to have is a typing error.
+inline constexpr int kMostThreads = 64;
+
+/// What a run keeps beside its counts, and how it runs.
 struct Watch {
   bool keep_visible = false;           ///< fill Surface::visible: 4 bytes a pixel more
   bool count_pixels = true;            ///< fill Surface::fragments and survivors
   bool keep_sums = false;              ///< fill Surface::sums
   PacketObserver* observer = nullptr;  ///< must outlive the run
   Core core = Core::kAuto;             ///< of the functional engines
-  int threads = 1;                     ///< that the run may use, at least 1
+  int threads = 1;                     ///< that the run may use, 1 to kMostThreads; the result is the same
 };
 
 }  // namespace halfspace

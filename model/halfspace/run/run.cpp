@@ -21,7 +21,11 @@ namespace halfspace {
 namespace {
 
 void check_options(Fidelity fidelity, const RunOptions& options) {
+  if (options.watch.threads < 1 || options.watch.threads > kMostThreads) {
+    throw InputError(fmt::format("threads is {}; legal: 1 to {}", options.watch.threads, kMostThreads));
+  }
   require(fidelity, options.watch.core != Core::kAuto, "a core of its own", &FidelityInfo::core);
+  require(fidelity, options.watch.threads > 1, "more threads than one", &FidelityInfo::threads);
   require(fidelity, options.stalls.any(), "a stall", &FidelityInfo::packets);
   require(fidelity, options.packet_times, "the time of every packet", &FidelityInfo::packets);
   require(fidelity, options.cycle_observer != nullptr, "a timeline", &FidelityInfo::timeline);

@@ -34,7 +34,8 @@ struct RunOptions {
 /// Runs `frame` on the machine of `config`, both valid. Image, counters and events are the same in every
 /// fidelity. Throws InputError where an option is given that the fidelity does not support, or where no
 /// verilated pipeline fits; RtlError and systemc::DeadlockError where a machine comes to rest with work left.
-/// Not for several threads at a time in `systemc`.
+/// Not for several threads at a time in `systemc`. With `options.watch.threads` above 1 the cycle observer is
+/// called in another thread than the packet observer.
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options = {});
 
 }  // namespace halfspace

@@ -13,17 +13,18 @@
 namespace halfspace {
 
 // clang-format off
-/// F(Identifier, name, core, packets, timeline, vcd, rtl): a timing engine, and what it supports:
+/// F(Identifier, name, core, threads, packets, timeline, vcd, rtl): a timing engine, and what it supports:
 ///   core      it runs on the core that is asked for
+///   threads   it uses more than one
 ///   packets   it knows when every packet moves, and stalls can be injected
 ///   timeline  it tells where the cycles go
 ///   vcd       it writes a waveform
 ///   rtl       it runs the verilated SystemVerilog
-#define HALFSPACE_FIDELITIES(F)                                  \
-  F(Functional, functional, true,  false, false, false, false)    \
-  F(Recurrence, recurrence, true,  true,  true,  false, false)    \
-  F(Systemc,    systemc,    false, true,  false, true,  false)    \
-  F(Rtl,        rtl,        false, true,  false, false, true)
+#define HALFSPACE_FIDELITIES(F)                                          \
+  F(Functional, functional, true,  true,  false, false, false, false)    \
+  F(Recurrence, recurrence, true,  true,  true,  true,  false, false)    \
+  F(Systemc,    systemc,    false, false, true,  false, true,  false)    \
+  F(Rtl,        rtl,        false, false, true,  false, false, true)
 // clang-format on
 
 #define HALFSPACE_FIDELITY(identifier, ...) k##identifier,
@@ -34,6 +35,7 @@ struct FidelityInfo {
   Fidelity fidelity;
   std::string_view name;
   bool core;
+  bool threads;
   bool packets;
   bool timeline;
   bool vcd;

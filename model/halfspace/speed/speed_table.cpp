@@ -103,9 +103,13 @@ std::string processor_name() {
   return "unknown";
 }
 
+std::string threads_text(int threads) {
+  return threads == 1 ? "one thread" : fmt::format("{} threads", threads);
+}
+
 std::string speed_markdown(const SpeedTable& table) {
-  std::string text =
-      fmt::format("one thread, medians of {} passes in turns (least to most), ms", table.repeat);
+  std::string text = fmt::format("{}, medians of {} passes in turns (least to most), ms",
+                                 threads_text(table.threads), table.repeat);
   std::string head = "| workload | depth | triangles | fragments | survivors |";
   std::string rule = "|---|---|---:|---:|---:|";
   const auto column = [&](const std::string& name) {
@@ -173,6 +177,7 @@ std::string speed_json(const SpeedTable& table) {
   json["processor"] = processor_name();
   json["config_hash"] = config_hash(table.config);
   json["repeat"] = table.repeat;
+  json["threads"] = table.threads;
   for (const Contender& c : table.contenders) {
     json["contenders"].push_back(
         {{"name", c.name}, {"yardstick", c.yardstick}, {"absent", c.absent}, {"about", c.about}});

@@ -48,6 +48,7 @@ struct SpeedRow {
 struct SpeedTable {
   Config config;
   int repeat = 0;
+  int threads = 1;                    ///< of ours
   std::vector<Contender> contenders;  ///< ours first
   std::vector<SpeedRow> rows;
 
@@ -58,6 +59,9 @@ struct SpeedTable {
 
 /// "AMD EPYC ...", as the system says, or "unknown".
 std::string processor_name();
+
+/// "one thread", "2 threads".
+std::string threads_text(int threads);
 
 /// A line on how it was measured, an empty line, and a table.
 std::string speed_markdown(const SpeedTable& table);

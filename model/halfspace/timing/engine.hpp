@@ -13,7 +13,8 @@ struct EngineOptions {
   Watch watch;
   StallPlan stalls;                   ///< injected
   bool packet_times = false;          ///< fill TimedResult::times
-  CycleObserver* observer = nullptr;  ///< sees where the cycles go; of the recurrence only
+  CycleObserver* observer = nullptr;  ///< sees where the cycles go, of the recurrence only; with more threads
+                                      ///< than one it is called in another than watch.observer
 };
 
 struct TimedResult {
