@@ -30,8 +30,8 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
   entries = groups * kLanes;
   of_part = entries;
   of_way = of_part * static_cast<std::size_t>(parts);
-  of_block = of_way * static_cast<std::size_t>(ways);
-  size = of_block << (x_bits + y_bits);
+  of_block = kGap + of_way * static_cast<std::size_t>(ways);
+  size = (of_block << (x_bits + y_bits)) + kGap;
   tag = unset_array<std::int32_t>(size);
   std::fill_n(tag.get(), size, kFree);
   slot = unset_array<std::uint32_t>(size);
@@ -42,11 +42,16 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
 void BlockCache::number_slots(const ZCacheShape& shape, int block_shift) {
   const std::size_t side = std::size_t{1} << block_shift;
   const int x_set = x_set_bits(shape);
+  std::fill_n(slot.get(), size, 0);
   for (std::size_t i = 0; i < size; ++i) {
+    if (i % of_block < kGap) {
+      continue;
+    }
     const std::size_t block = i / of_block;
-    const std::size_t way = i % of_block / of_way;
-    const std::size_t part = i % of_way / of_part;
-    const std::size_t tile = i % entries % (side * side);  // no tile is behind a small block's last
+    const std::size_t in_block = i % of_block - kGap;
+    const std::size_t way = in_block / of_way;
+    const std::size_t part = in_block % of_way / of_part;
+    const std::size_t tile = in_block % entries % (side * side);  // no tile is behind a small block's last
     const std::size_t x = block >> y_bits << block_shift | tile % side;
     const std::size_t y = (block & y_mask) << block_shift | tile / side;
     const std::size_t set = x | y << x_set;
@@ -59,12 +64,13 @@ void BlockCache::clear(const BlockSurface& surface) {
   const auto first = static_cast<std::int32_t>(surface.first);
   const auto end = static_cast<std::int32_t>(surface.first + surface.blocks);
   std::vector<std::uint32_t> free;
-  for (std::size_t line = 0; line < size / static_cast<std::size_t>(ways); ++line) {
-    const std::size_t begin = line / of_way * of_block + line % of_way;
+  for (std::size_t line = 0; line < size / of_block * of_way; ++line) {
+    const std::size_t begin = line / of_way * of_block + kGap + line % of_way;
+    const std::size_t end_way = begin + of_way * static_cast<std::size_t>(ways);
     // What stays moves to the front; what is free follows, the one used longest ago last.
     free.clear();
     std::size_t kept = begin;
-    for (std::size_t from = begin; from < begin + of_block; from += of_way) {
+    for (std::size_t from = begin; from < end_way; from += of_way) {
       if (tag[from] == kFree || (tag[from] >= first && tag[from] < end)) {
         free.push_back(slot[from] & ~kDirty);
         continue;

@@ -50,7 +50,7 @@ struct BlockCache {
 
   /// Of the sets of a block's tiles, in entries; `block_x` and `block_y` are in blocks.
   [[nodiscard]] std::size_t sets(std::uint32_t block_x, std::uint32_t block_y) const {
-    return ((block_x & x_mask) << y_bits | (block_y & y_mask)) * of_block;
+    return ((block_x & x_mask) << y_bits | (block_y & y_mask)) * of_block + kGap;
   }
 
   [[nodiscard]] std::uint32_t line_bytes(std::uint32_t block) const {
@@ -104,6 +104,9 @@ struct BlockCache {
 
   static constexpr std::uint32_t kDirty = 1u << 31;  ///< of `slot`, beside its number
   static constexpr std::int32_t kFree = -1;          ///< of `tag`
+  /// Entries around those of a block. Processors fetch lines of their caches in pairs and ahead, so what two
+  /// threads write to lies apart, from each other and from what both read.
+  static constexpr std::size_t kGap = 1024;
 
   int ways = 0;
   int parts = 0;

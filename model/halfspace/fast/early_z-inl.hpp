@@ -37,7 +37,7 @@ class EarlyZ {
       : task_(task),
         draw_(*task.draw),
         state_(task.draw->early_z),
-        counters_(task.draw->counters),
+        counters_(tallies.counters),
         tallies_(tallies),
         tiles_(task.tiles),
         block_tiles_(task.walker.block_size / TileSize),

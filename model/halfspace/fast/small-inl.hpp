@@ -44,7 +44,7 @@ class Small {
   explicit Small(const RasterTask& task, Tallies& tallies)
       : task_(task),
         state_(task.draw->early_z),
-        counters_(task.draw->counters),
+        counters_(tallies.counters),
         tallies_(tallies),
         windows_(task, tallies),
         found_(windows_.found),

@@ -33,7 +33,9 @@ HWY_INLINE void count_tiles(std::uint32_t rejected, std::uint32_t whole, std::ui
   evaluator.edges += 3 * ones(partial) - skipped;
 }
 
+/// Apart from the draw's own: what is counted all the time must not lie beside what other threads read.
 struct Tallies {
+  Counters counters;  ///< all but what the following give
   std::uint64_t bursts = 0;
   std::uint64_t fragments = 0;
   std::uint64_t quads = 0;
@@ -42,6 +44,7 @@ struct Tallies {
 
   /// Adds them to the draw's, and begins again. `tile_quads`: in a tile.
   void add_to(DrawContext& draw, std::uint64_t tile_quads) {
+    draw.counters += counters;
     QuadGeneratorCounters& generator = draw.counters.quad_generator;
     generator.tiles += bursts;
     generator.fragments += fragments;

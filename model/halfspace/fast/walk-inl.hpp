@@ -49,7 +49,7 @@ class Walk {
   static constexpr std::size_t kMostTriangles = 16;
 
   Walk(const RasterTask& task, Tallies& tallies)
-      : counters_(task.draw->counters),
+      : counters_(tallies.counters),
         tallies_(tallies),
         stream_(task.stream),
         columns_(task.columns),

@@ -57,7 +57,7 @@ class Windows {
 
   Windows(const RasterTask& task, Tallies& tallies)
       : task_(task),
-        counters_(task.draw->counters),
+        counters_(tallies.counters),
         tallies_(tallies),
         block_shift_(std::countr_zero(static_cast<unsigned>(task.walker.block_size))) {}
 
@@ -374,7 +374,9 @@ class Windows {
     hn::Store(hn::Add(hn::Mul(tile_y, set(task_.surface->codes.tiles_x())), tile_x), tag, found.tile[q]);
     hn::Store(block, tag, found.block[q]);
     hn::Store(hn::Add(hn::Mul(block, number(tiles.entries)), inside), tag, found.at[q]);
-    hn::Store(hn::Add(hn::Mul(set_of_block, number(cache.of_block)), inside), tag, found.entry[q]);
+    hn::Store(
+        hn::Add(hn::Mul(set_of_block, number(cache.of_block)), hn::Add(inside, number(BlockCache::kGap))),
+        tag, found.entry[q]);
   }
 
   /// Returns the steps after the last job.
