@@ -83,6 +83,7 @@ class ThrowingReader final : public StreamReader {
  public:
   int parts = 0;
 
+  [[nodiscard]] bool has_time() const override { return true; }
   void begin(std::span<const StreamSurface> /*surfaces*/, std::uint32_t /*memory_lines*/) override {}
   void read(const StreamView& /*part*/, std::vector<std::uint64_t>* /*burst_cycles*/) override {
     if (++parts == 3) {

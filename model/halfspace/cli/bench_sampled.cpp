@@ -103,8 +103,7 @@ struct SampledErrors {
 
 void print_frame(const std::string& input, const SampledOptions& options, SampledErrors& all) {
   const Config base = options.machine.config();
-  const FrameRecord record =
-      record_frame(load(input), base, {.count_pixels = false, .threads = options.threads.count});
+  const FrameRecord record = record_frame(load(input), base);
   const ZTrace trace = trace_z_cache(record, z_cache_shape(base));
   const std::vector<Config> machines = random_machines(base, options.machines, options.seed);
   Retimer retimer(record, options.threads.count);

@@ -53,8 +53,7 @@ void print_times(const Frame& frame, const Config& config, const TimeOptions& op
   std::vector<double> singly;
   std::uint64_t cycles = 0;
   std::uint64_t events = 0;
-  Retimer retimer(record_frame(frame, config, {.count_pixels = false, .threads = watch.threads}),
-                  watch.threads);
+  Retimer retimer(record_frame(frame, config), watch.threads);
   const std::vector<Config> machines = neighbours(config);
   for (int i = 0; i <= options.repeat; ++i) {
     RetimedFrame retimed;

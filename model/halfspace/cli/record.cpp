@@ -16,7 +16,6 @@ struct RecordOptions {
   InputOptions input;
   MachineOptions machine;
   CoreOption core;
-  ThreadsOption threads;
   std::string out;
 };
 
@@ -33,11 +32,8 @@ void record(const RecordOptions& options) {
   const Config config = options.machine.config();
   const Frame frame = options.input.frame();
   RecordObserver observer(frame.name);
-  const FrameRecord record = record_frame(frame, config,
-                                          {.count_pixels = false,
-                                           .observer = &observer,
-                                           .core = options.core.core(),
-                                           .threads = options.threads.count});
+  const FrameRecord record = record_frame(
+      frame, config, {.count_pixels = false, .observer = &observer, .core = options.core.core()});
   write_record(options.out, record);
   const PacketStream& packets = record.packets;
   fmt::print("{}: {} triangles with {} tile jobs, {} bursts with depth; {} bytes in {}\n", record.name,
@@ -53,7 +49,6 @@ void add_record_command(CLI::App& app, int& /*status*/) {
   options->input.add_to(*command);
   options->machine.add_to(*command);
   options->core.add_to(*command);
-  options->threads.add_to(*command, "One runs the units, one keeps their packets");
   command->add_option("--out", options->out, "file to write")->type_name("RECORD")->required();
   command->callback([options] { record(*options); });
 }

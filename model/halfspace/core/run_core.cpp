@@ -33,7 +33,8 @@ Core core_of(const Config& config, const Watch& watch, const StreamReader* reade
 }
 
 FrameResult run_core(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader) {
-  if (reader == nullptr || watch.threads < 2 || shows_cycles(watch, *reader)) {
+  // without time, to read a part costs less than to hand it over
+  if (reader == nullptr || !reader->has_time() || watch.threads < 2 || shows_cycles(watch, *reader)) {
     return run_units(frame, config, watch, reader);
   }
   ThreadedReader beside(*reader);

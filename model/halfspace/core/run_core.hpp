@@ -12,8 +12,8 @@ namespace halfspace {
 /// where the fast one is asked for and does not.
 Core core_of(const Config& config, const Watch& watch, const StreamReader* reader);
 
-/// As run_in_order (machine/in_order.hpp), on core_of(). With `watch.threads` above 1 the reader reads in a
-/// thread of its own, unless it is asked for the cycles of bursts.
+/// As run_in_order (machine/in_order.hpp), on core_of(). With `watch.threads` above 1 a reader that has time
+/// reads in a thread of its own, unless it is asked for the cycles of bursts.
 FrameResult run_core(const Frame& frame, const Config& config, const Watch& watch, StreamReader* reader);
 
 }  // namespace halfspace
