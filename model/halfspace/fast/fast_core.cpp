@@ -37,7 +37,12 @@ class FastCore::Runner {
     {
       std::vector<std::jthread> others;
       for (std::size_t thread = 1; thread < runs_.size(); ++thread) {
-        others.emplace_back(run, thread);
+        try {
+          others.emplace_back(run, thread);
+        } catch (...) {  // it has not begun
+          errors[thread] = std::current_exception();
+          all.arrive_and_drop();
+        }
       }
       run(0);
     }

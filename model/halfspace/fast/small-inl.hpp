@@ -202,7 +202,7 @@ class Small {
   HWY_INLINE void test_vector(std::size_t first, std::size_t count) {
     const Tag tag;
     constexpr int kTileShift = TileSize == 8 ? 3 : 2;
-    const Vector inactive = set(0);
+    const Vector inactive = set(fragment_[first]);  // of a tile that is ours to look at
     const auto active = hn::FirstN(tag, count);
     const Vector fragment = hn::IfThenElse(active, hn::LoadU(tag, fragment_ + first), inactive);
     const WindowDepth::Fragments at_samples = located(fragment);
@@ -221,7 +221,7 @@ class Small {
     const Vector side = set(TileSize - 1);
     const Vector index = hn::Add(hn::ShiftLeftSame(tile, 2 * kTileShift),
                                  hn::Add(hn::ShiftLeftSame(hn::And(y, side), kTileShift), hn::And(x, side)));
-    auto* const stored = reinterpret_cast<std::int32_t*>(task_.surface->codes.tile(0));
+    auto* const stored = reinterpret_cast<std::int32_t*>(task_.surface->codes.memory());
     alignas(64) std::int32_t at[kWidth];
     alignas(64) std::int32_t codes[kWidth];
     hn::Store(index, tag, at);

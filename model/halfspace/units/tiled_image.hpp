@@ -63,6 +63,10 @@ class TiledImage {
     return values(number);
   }
 
+  /// The values of all tiles, one after the other by number; those of tiles that tile() has not given since
+  /// the image was filled are anything.
+  [[nodiscard]] Value* memory() { return values_.get(); }
+
   /// The same to read, until the image is written: of a tile that has not been touched they are elsewhere.
   [[nodiscard]] const Value* tile(int tile_x, int tile_y) const {
     const std::size_t number = tile_number(tile_x, tile_y);
