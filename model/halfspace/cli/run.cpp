@@ -134,6 +134,7 @@ void add_run_command(CLI::App& app, int& status) {
   options->input.add_to(*command);
   options->machine.add_to(*command);
   std::vector<std::string> fidelities;
+  fidelities.reserve(kFidelityInfo.size());
   for (const FidelityInfo& fidelity : kFidelityInfo) {
     fidelities.emplace_back(fidelity.name);
   }
