@@ -109,6 +109,27 @@ Frame touching_planes(Random& random) {
   return builder.frame;
 }
 
+/// Slivers of some square sub-pixels that cover a sample, so steep that the change of depth from pixel to
+/// pixel passes 64 bits: around one that was found, in steps of 1/128 pixel.
+Frame steep_slivers(Random& random) {
+  FrameBuilder builder(64,
+                       pick(random, {DepthFormat::kUnorm24, DepthFormat::kUnorm24, DepthFormat::kFloat32}));
+  std::vector<glm::dvec3> window;
+  for (int n = 0; n < 50; ++n) {
+    const glm::dvec2 moved(static_cast<double>(random.between(-57, 2)),
+                           static_cast<double>(random.between(-1, 49)));
+    const auto vertex = [&](int x, int y, double z) {
+      const auto near = [&](int at) { return static_cast<double>(at + random.between(-1, 1)) / 128; };
+      window.emplace_back(near(x) + moved.x, near(y) + moved.y, z);
+    };
+    vertex(7440, 1794, 0);
+    vertex(7822, 250, 1.0 / 64);
+    vertex(7568, 1277, 1);
+  }
+  builder.draw(window).depth_func = DepthFunc::kLess;
+  return builder.frame;
+}
+
 /// Triangles of which a scissor leaves a window of a few samples: a tile, a part of one or of several. Some
 /// cover it whole.
 Frame scissored(Random& random) {
@@ -201,6 +222,17 @@ TEST_CASE("fast core: planes that touch in a sample, their first vertices far aw
     CAPTURE(seed(), run);
     const Frame frame = touching_planes(random);
     REQUIRE(core_difference(frame, config, watch, nullptr) == "");
+  }
+}
+
+TEST_CASE("fast core: slivers so steep that a pixel's step in depth passes 64 bits", "[property]") {
+  Random random(seed() + 5);
+  for (std::uint64_t run = 0; run < frames() / 10; ++run) {
+    CAPTURE(seed(), run);
+    Config config;
+    config.raster.sub_pixel_bits = static_cast<int>(random.between(7, 8));
+    const Frame frame = steep_slivers(random);
+    REQUIRE(core_difference(frame, config, {.keep_visible = true}, nullptr) == "");
   }
 }
 

@@ -63,10 +63,10 @@ struct PlaneWords {
 using ShortWords = PlaneWords<ShortWord, std::uint64_t>;
 using LongWords = PlaneWords<LongWord, Modular>;
 
+/// A gradient of 128 bits.
+inline Modular wide(std::int64_t high, std::uint64_t low) { return static_cast<Modular>(high) << 64 | low; }
+
 inline LongWords long_words(const Plane& plane, int sub_pixel_bits) {
-  const auto wide = [](std::int64_t high, std::uint64_t low) {
-    return static_cast<Modular>(high) << 64 | low;
-  };
   return {plane, wide(plane.dx_high, plane.dx), wide(plane.dy_high, plane.dy), sub_pixel_bits};
 }
 

@@ -103,14 +103,15 @@ inline double real(std::uint64_t gradient) {
 inline double real(Modular gradient) { return static_cast<double>(static_cast<Int128>(gradient)); }
 
 /// What bounds of depth are made of: in codes, of float32 in depth. `unit`: of these, in words. `highest`:
-/// that the triangle has. `least_margin`: what the words' own rounding takes at most.
-template <int TileSize, class Words>
-HWY_INLINE void load_bounds(const Words& words, double unit, double highest, double least_margin,
-                            const RasterTask& task, Triangle& out) {
+/// that the triangle has. `least_margin`: what the words' own rounding takes at most. The gradients are for a
+/// sub-pixel: those of a pixel, which words have, are cut to their bits where a triangle is steep.
+template <int TileSize>
+HWY_INLINE void load_bounds(double gradient_x, double gradient_y, double unit, double highest,
+                            double least_margin, const RasterTask& task, Triangle& out) {
   const double pixel = 1 << task.walker.sub_pixel_bits;
-  const double scale = 1 / (double{1 << kGradientFraction} * unit);
-  const double dx = real(words.dx) * scale;
-  const double dy = real(words.dy) * scale;
+  const double scale = pixel / (double{1 << kGradientFraction} * unit);
+  const double dx = gradient_x * scale;
+  const double dy = gradient_y * scale;
   const Plane& plane = out.plane;
   const double z = (static_cast<double>(plane.z) + static_cast<double>(plane.add)) / unit;
   out.gradient_x = dx;
@@ -179,7 +180,7 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
     out.short_words = ShortWords(plane, plane.dx, plane.dy, state.sub_pixel_bits);
     constexpr double kMargin = 2;
     const double code = static_cast<double>(std::int64_t{1} << vertex_depth_fraction(state.format));
-    load_bounds<TileSize>(out.short_words, code, plane.high, kMargin, task, out);
+    load_bounds<TileSize>(real(plane.dx), real(plane.dy), code, plane.high, kMargin, task, out);
     hn::Store(first_samples<TileSize>(out.short_words.step_x, out.short_words.step_y), Tag(),
               out.depth_steps);
   } else {
@@ -187,7 +188,8 @@ HWY_INLINE void load_depth(const SetUpTriangles& in, std::size_t at, const Raste
     const double margin = std::ldexp(1.0, plane.exponent - 55);  // 256 words
     const double one = std::ldexp(1.0, kLongWordFraction - plane.exponent);
     const double highest = std::bit_cast<float>(plane.high);
-    load_bounds<TileSize>(out.long_words, one, highest, margin, task, out);
+    load_bounds<TileSize>(real(wide(plane.dx_high, plane.dx)), real(wide(plane.dy_high, plane.dy)), one,
+                          highest, margin, task, out);
     out.rebias = float_rebias(plane.exponent);
     long_steps<TileSize>(out.long_words, out.long_steps);
   }
