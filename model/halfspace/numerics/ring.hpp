@@ -42,8 +42,8 @@ class Ring {
 
  private:
   static constexpr std::uint32_t kHalf = kItems / 2;
-  /// Bytes that processors hand to each other.
-  static constexpr std::size_t kLine = 64;
+  /// Bytes that processors hand to each other: a pair of lines.
+  static constexpr std::size_t kLine = 128;
 
   std::array<Item, kItems> items_{};
   alignas(kLine) std::atomic<std::uint32_t> filled_ = 0;  ///< items so far
