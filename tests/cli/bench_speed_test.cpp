@@ -9,11 +9,11 @@ TEST_CASE("bench speed: the model beside the scalar loop, as a table, CSV and JS
   const Place place;
   const std::string json = (place.path / "speed.json").string();
   const std::string csv = (place.path / "speed.csv").string();
-  const Outcome outcome = place.run("bench speed --no-llvmpipe --repeat 2 --json " + json + " --csv " + csv +
+  const Outcome outcome = place.run("bench speed --without llvmpipe --repeat 2 --json " + json + " --csv " + csv +
                                     " " + scene("vkcube.ptf.xz") + " " + scene("cc0_truck.ptf.xz"));
   REQUIRE(outcome.status == 0);
   CHECK(outcome.err.empty());
-  CHECK(outcome.out.find("llvmpipe is left out: by --no-llvmpipe") != std::string::npos);
+  CHECK(outcome.out.find("llvmpipe is left out: by --without") != std::string::npos);
   CHECK(outcome.out.find(
             "| scalar loop / functional | scalar loop / functional pixels | Mquads/s | ns a triangle |") !=
         std::string::npos);
@@ -28,7 +28,7 @@ TEST_CASE("bench speed: the model beside the scalar loop, as a table, CSV and JS
 
 TEST_CASE("bench speed: synthetic frames have the depth format that is asked for") {
   const Place place;
-  const std::string command = "bench speed --no-llvmpipe --repeat 1 ";
+  const std::string command = "bench speed --without llvmpipe --repeat 1 ";
   CHECK(place.run(command + "synthetic:fill_ftb").out.find("| fill_ftb | unorm24 | 8 |") !=
         std::string::npos);
   CHECK(place.run(command + "--depth float32 synthetic:large_ftb:full")

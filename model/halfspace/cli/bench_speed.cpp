@@ -2,6 +2,7 @@
 /// triangles.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -29,7 +30,7 @@ struct SpeedOptions {
   ThreadsOption threads;
   std::string depth;
   int repeat = 7;
-  bool no_llvmpipe = false;
+  std::vector<std::string> without;
   std::string json;
   std::string csv;
 
@@ -70,8 +71,8 @@ struct Runner {
 class SpeedBench {
  public:
   explicit SpeedBench(const SpeedOptions& options) : options_(options), config_(options.machine.config()) {
-    std::string why = "by --no-llvmpipe";
-    if (!options.no_llvmpipe) {
+    std::string why;
+    if (!left_out("llvmpipe")) {
       llvmpipe_ = Llvmpipe::open(why);
     }
     const auto nothing = [] {};
@@ -96,6 +97,12 @@ class SpeedBench {
                         .prepare = [this] { llvmpipe_->clear(); },
                         .run = [this] { llvmpipe_->draw(); },
                         .count = [this] { return llvmpipe_->count(); }});
+    for (Runner& runner : runners_) {
+      if (left_out(runner.contender.name)) {
+        runner.contender.absent = true;
+        runner.contender.about = "by --without";
+      }
+    }
   }
 
   SpeedTable measure_all() {
@@ -114,7 +121,9 @@ class SpeedBench {
       Watch counts_none = watch;
       counts_none.count_pixels = false;
       functional_.emplace(config_, counts_none);
-      loop_.emplace(frame_, config_);
+      if (!left_out("scalar_loop")) {
+        loop_.emplace(frame_, config_);
+      }
       if (llvmpipe_) {
         llvmpipe_->load(frame_, config_);
       }
@@ -124,6 +133,10 @@ class SpeedBench {
   }
 
  private:
+  [[nodiscard]] bool left_out(const std::string& name) const {
+    return std::ranges::find(options_.without, name) != options_.without.end();
+  }
+
   std::uint64_t count_functional() {
     counters_ = functional_->run(frame_);
     return counters_.early_z.survivors;
@@ -222,7 +235,10 @@ void add_bench_speed(CLI::App& bench) {
   speed->add_option("--repeat", options->repeat, "number of timed passes of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  speed->add_flag("--no-llvmpipe", options->no_llvmpipe, "leave llvmpipe out");
+  speed->add_option("--without", options->without, "leave contenders out")
+      ->check(CLI::IsMember({"functional_pixels", "scalar_loop", "llvmpipe"}))
+      ->delimiter(',')
+      ->type_name("NAME,...");
   speed->add_option("--json", options->json, "write the table and every pass's time as JSON too")
       ->type_name("FILE");
   speed->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");

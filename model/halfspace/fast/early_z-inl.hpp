@@ -40,9 +40,13 @@ class EarlyZ {
         counters_(tallies.counters),
         tallies_(tallies),
         tiles_(task.tiles),
+        block_size_(task.walker.block_size),
         block_tiles_(task.walker.block_size / TileSize),
         tile_shift_(std::countr_zero(static_cast<unsigned>(block_tiles_))),
         group_rows_(std::min(kLanes / block_tiles_, block_tiles_)),
+        groups_(block_tiles_ / group_rows_),
+        all_tiles_(static_cast<std::uint16_t>((1u << block_tiles_ * group_rows_) - 1)),
+        is_float_(task.draw->early_z.format == DepthFormat::kFloat32),
         fraction_(vertex_depth_fraction(task.draw->early_z.format)),
         ordered_(is_ordered(task.draw->early_z.func)),
         flip_(state_.func == DepthFunc::kGreater || state_.func == DepthFunc::kGequal ? -1 : 0),
@@ -53,6 +57,39 @@ class EarlyZ {
 
   /// `masks`: of the partial tiles.
   HWY_INLINE void visit(const Visit& visit, const std::uint64_t* masks) {
+    if (visit.blocks == 0) {
+      tiles(visit, masks);
+    } else {
+      blocks(visit);
+    }
+  }
+
+ private:
+  /// Blocks that are covered whole.
+  HWY_INLINE void blocks(const Visit& row) {
+    Visit visit;
+    visit.triangle = row.triangle;
+    visit.block_y = row.block_y;
+    visit.partial = 0;
+    for (std::uint32_t left = row.blocks; left != 0; left &= left - 1) {
+      visit.block_x = row.block_x + static_cast<std::uint32_t>(std::countr_zero(left));
+      if (tiles_ != nullptr) {
+        tiles_->open(tiles_->block(visit.block_x, visit.block_y));
+      }
+      for (int group = 0; group < groups_; ++group) {
+        visit.group = static_cast<std::uint32_t>(group);
+        visit.whole = all_tiles_;
+        if (visit.triangle->kind != DepthKind::kNone) {
+          code_range(*visit.triangle, static_cast<int>(visit.block_x) * block_size_,
+                     static_cast<int>(visit.block_y) * block_size_ + group * group_rows_ * TileSize, is_float_,
+                     visit.range);
+        }
+        tiles(visit, nullptr);
+      }
+    }
+  }
+
+  HWY_INLINE void tiles(const Visit& visit, const std::uint64_t* masks) {
     const std::uint32_t touched = visit.whole | visit.partial;
     begin(visit);
     Passed passed;
@@ -73,7 +110,6 @@ class EarlyZ {
     counters_.early_z.tiles_killed += ones(touched & ~passed.some);
   }
 
- private:
   struct Passed {
     std::uint32_t whole = 0;  ///< tiles all of whose samples passed, of those that are covered whole
     std::uint32_t some = 0;   ///< tiles of which a sample passed
@@ -412,9 +448,13 @@ class EarlyZ {
   Counters& counters_;
   Tallies& tallies_;
   SurfaceTiles* const tiles_;
+  const int block_size_;
   const int block_tiles_;
   const int tile_shift_;
   const int group_rows_;
+  const int groups_;
+  const std::uint16_t all_tiles_;  ///< of a group
+  const bool is_float_;
   const int fraction_;
   const bool ordered_;
   const std::int32_t flip_;

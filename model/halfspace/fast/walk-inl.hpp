@@ -25,12 +25,14 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// A triangle in a group of tiles: those that it covers whole, and those of which it covers a part.
+/// A triangle in a group of tiles: those that it covers whole, and those of which it covers a part. Or in
+/// blocks of a row that it covers whole.
 struct Visit {
   Triangle* triangle;
   std::uint32_t block_x;
   std::uint32_t block_y;
-  std::uint32_t group;  ///< of the block
+  std::uint32_t blocks;  ///< covered whole, a bit each from block_x on; 0: the visit is of tiles, as follows
+  std::uint32_t group;   ///< of the block
   std::uint16_t whole;  ///< a bit a tile
   std::uint16_t partial;
   std::uint32_t first_mask;  ///< of the partial ones
@@ -152,14 +154,57 @@ class Walk {
         count_block(x + std::countr_zero(left), y, TileVerdict::kReject);
       }
       const std::uint32_t whole = verdict.whole();
+      const std::uint32_t accepted = sums_ == nullptr ? own & whole & filled_blocks(t.bounds, x, y) : 0;
       int next = 0;
-      for (std::uint32_t left = own & ~verdict.rejected; left != 0; left &= left - 1) {
+      for (std::uint32_t left = own & ~verdict.rejected; left != 0;) {
         const int i = std::countr_zero(left);
         steps_ += static_cast<std::uint32_t>(i - next);
-        next = i + 1;
+        if ((accepted >> i & 1) != 0) {
+          // They are neighbours: no other comes between.
+          accepted_blocks(t, x, y, accepted, flush);
+          next = std::bit_width(accepted);
+          left &= ~accepted;
+          continue;
+        }
         block(t, x + i, y, (whole >> i & 1) != 0, true, flush);
+        next = i + 1;
+        left &= left - 1;
       }
       steps_ += static_cast<std::uint32_t>(count - next);
+    }
+  }
+
+  /// Of the blocks from (x, y) on, those that lie within bounds.
+  [[nodiscard]] HWY_INLINE std::uint32_t filled_blocks(const PixelRect& bounds, int x, int y) const {
+    const int py = y << block_shift_;
+    if (bounds.y_first > py || bounds.y_last < py + block_size_ - 1) {
+      return 0;
+    }
+    const int first = std::max(((bounds.x_first + block_size_ - 1) >> block_shift_) - x, 0);
+    const int end = std::min(((bounds.x_last + 1) >> block_shift_) - x, kWideWidth);
+    return first < end ? (1u << end) - (1u << first) : 0;
+  }
+
+  template <class Flush>
+  HWY_INLINE void accepted_blocks(Triangle& t, int x, int y, std::uint32_t blocks, Flush&& flush) {
+    if (visit_count_ == kMostVisits) {
+      flush();
+    }
+    Visit& visit = visits_[visit_count_++];
+    visit.triangle = &t;
+    visit.block_x = static_cast<std::uint32_t>(x);
+    visit.block_y = static_cast<std::uint32_t>(y);
+    visit.blocks = blocks;
+    count_accepted(ones(blocks));
+    if (stream_ == nullptr) {
+      return;
+    }
+    for (std::uint32_t left = blocks; left != 0; left &= left - 1) {
+      ++steps_;
+      for (int group = 0; group < groups_; ++group) {
+        const std::uint32_t all = all_tiles(group);
+        tell_jobs(all, all, all, nullptr);
+      }
     }
   }
 
@@ -202,20 +247,16 @@ class Walk {
                            .y_last = std::min(bounds.y_last - py, block_size_ - 1)};
     const bool filled = inside.x_last - inside.x_first == block_size_ - 1 &&
                         inside.y_last - inside.y_first == block_size_ - 1;
-    TileWalkerCounters& walker = counters_.tile_walker;
     steps_ += decided ? 1 : 0;
     if (covered && filled) {
-      const std::uint64_t tiles = std::uint64_t{1} << 2 * tile_shift_;
-      ++walker.blocks_accepted;
-      walker.tiles_by_block += tiles;
-      counters_.edge_evaluator.tiles_skipped += tiles;
+      count_accepted(1);
       count_block(x, y, TileVerdict::kAccept);
       for (int group = 0; group < groups_; ++group) {
-        add(t, x, y, group, group_lanes(group, 0, block_tiles_ - 1, 0, block_tiles_ - 1), flush);
+        add(t, x, y, group, all_tiles(group), flush);
       }
       return;
     }
-    walker.blocks_partial += decided ? 1 : 0;
+    counters_.tile_walker.blocks_partial += decided ? 1 : 0;
     // Saturated: what matters is the sign inside the block.
     constexpr std::int64_t kLimit = std::int64_t{1} << 30;
     std::array<std::int32_t, 3> e{};
@@ -238,7 +279,6 @@ class Walk {
     Visit& visit = begin_visit(t, x, y, group);
     visit.whole = static_cast<std::uint16_t>(whole);
     ++visit_count_;
-    count_whole(whole);
     count_quads(visit);
     tell_jobs(whole, whole, whole, nullptr);
   }
@@ -249,6 +289,7 @@ class Walk {
     visit.triangle = &t;
     visit.block_x = static_cast<std::uint32_t>(x);
     visit.block_y = static_cast<std::uint32_t>(y);
+    visit.blocks = 0;
     visit.group = static_cast<std::uint32_t>(group);
     visit.whole = 0;
     visit.partial = 0;
@@ -264,6 +305,10 @@ class Walk {
   }
 
   // ---- tiles of a block ----
+
+  [[nodiscard]] HWY_INLINE std::uint32_t all_tiles(int group) const {
+    return group_lanes(group, 0, block_tiles_ - 1, 0, block_tiles_ - 1);
+  }
 
   /// Lanes of the tiles in columns and rows of a block.
   [[nodiscard]] HWY_INLINE std::uint32_t group_lanes(int group, int x_first, int x_last, int y_first,
@@ -324,7 +369,7 @@ class Walk {
     const std::uint32_t looked_at = t.kind == DepthKind::kNone ? 0 : ~dead(visit);
     const int first_x = x << tile_shift_;
     const int first_y = (y << tile_shift_) + group * group_rows_;
-    count_whole(whole);
+    count_whole(ones(whole));
     std::array<std::uint8_t, kLanes> quads;
     for (std::uint32_t left = partial; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
@@ -357,8 +402,16 @@ class Walk {
 
   // ---- what is counted of them ----
 
-  void count_whole(std::uint32_t lanes) {
-    const std::uint64_t tiles = ones(lanes);
+  /// Blocks that are covered whole.
+  void count_accepted(std::uint64_t blocks) {
+    const std::uint64_t tiles = blocks << 2 * tile_shift_;
+    counters_.tile_walker.blocks_accepted += blocks;
+    counters_.tile_walker.tiles_by_block += tiles;
+    counters_.edge_evaluator.tiles_skipped += tiles;
+    count_whole(tiles);
+  }
+
+  void count_whole(std::uint64_t tiles) {
     tallies_.bursts += tiles;
     tallies_.fragments += tiles * kSamples;
     tallies_.quads += tiles * kQuads;
