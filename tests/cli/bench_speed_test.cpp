@@ -9,8 +9,8 @@ TEST_CASE("bench speed: the model beside the scalar loop, as a table, CSV and JS
   const Place place;
   const std::string json = (place.path / "speed.json").string();
   const std::string csv = (place.path / "speed.csv").string();
-  const Outcome outcome = place.run("bench speed --without llvmpipe --repeat 2 --json " + json + " --csv " + csv +
-                                    " " + scene("vkcube.ptf.xz") + " " + scene("cc0_truck.ptf.xz"));
+  const Outcome outcome = place.run("bench speed --without llvmpipe --repeat 2 --json " + json + " --csv " +
+                                    csv + " " + scene("vkcube.ptf.xz") + " " + scene("cc0_truck.ptf.xz"));
   REQUIRE(outcome.status == 0);
   CHECK(outcome.err.empty());
   CHECK(outcome.out.find("llvmpipe is left out: by --without") != std::string::npos);

@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// The range of a triangle's codes in the tiles of a group.
+/// The range of a triangle's codes in the tiles of a group, or in blocks.
 struct CodeRange {
   alignas(64) std::int32_t low[kLanes];
   alignas(64) std::int32_t high[kLanes];
@@ -30,41 +30,61 @@ struct Outcome {
   std::uint32_t passed = 0;
 };
 
+/// Depths as codes of a triangle.
+HWY_INLINE Vector codes_of(hn::Vec<FloatTag> depth, bool is_float, const Triangle& t) {
+  const Tag tag;
+  const FloatTag real;
+  // Bits of floats that are not negative are codes; a conversion to integers needs numbers that they hold.
+  constexpr float kLargest = 0x1p30F;
+  const auto above = hn::Max(depth, hn::Zero(real));
+  const Vector codes =
+      is_float ? hn::BitCast(tag, above) : hn::ConvertTo(tag, hn::Min(above, hn::Set(real, kLargest)));
+  return hn::Min(hn::Max(codes, set(t.plane.low)), set(t.plane.high));
+}
+
 /// `x` and `y`: pixel of the group's first sample. The triangle has depth.
 HWY_INLINE void code_range(const Triangle& t, int x, int y, bool is_float, CodeRange& out) {
   const Tag tag;
   const FloatTag real;
-  const Vector low_end = set(t.plane.low);
-  const Vector high_end = set(t.plane.high);
   if (t.kind != DepthKind::kShort && t.kind != DepthKind::kLong) {
     for (int i = 0; i < kLanes; i += kWidth) {
-      hn::Store(low_end, tag, out.low + i);
-      hn::Store(high_end, tag, out.high + i);
+      hn::Store(set(t.plane.low), tag, out.low + i);
+      hn::Store(set(t.plane.high), tag, out.high + i);
     }
     return;
   }
-  const auto first = static_cast<float>(t.depth_origin + t.gradient_x * x + t.gradient_y * y);
+  const auto first = static_cast<float>(t.depth_at(x, y));
   const auto least = hn::Set(real, first + t.tile_least);
   const auto most = hn::Set(real, first + t.tile_most);
-  const auto codes = [&](hn::Vec<FloatTag> depth) HWY_ATTR {
-    // Bits of floats that are not negative are codes; a conversion to integers needs numbers that they hold.
-    constexpr float kLargest = 0x1p30F;
-    const auto above = hn::Max(depth, hn::Zero(real));
-    return is_float ? hn::BitCast(tag, above) : hn::ConvertTo(tag, hn::Min(above, hn::Set(real, kLargest)));
-  };
   for (int i = 0; i < kLanes; i += kWidth) {
     const auto tiles = hn::Load(real, t.tile_depth + i);
-    hn::Store(hn::Min(hn::Max(codes(hn::Add(tiles, least)), low_end), high_end), tag, out.low + i);
-    hn::Store(hn::Min(hn::Max(codes(hn::Add(tiles, most)), low_end), high_end), tag, out.high + i);
+    hn::Store(codes_of(hn::Add(tiles, least), is_float, t), tag, out.low + i);
+    hn::Store(codes_of(hn::Add(tiles, most), is_float, t), tag, out.high + i);
   }
 }
 
-/// kWidth tiles, the first of which is `at`.
-HWY_INLINE Outcome outcome(DepthFunc func, Vector low, Vector high, const SurfaceTiles& tiles,
-                           std::size_t at) {
+/// The same in up to kWidth blocks, every `stride` pixels, the first at pixel (x, y).
+HWY_INLINE void block_code_range(const Triangle& t, int x, int y, int stride, bool is_float, CodeRange& out) {
   const Tag tag;
-  const Vector z_min = hn::LoadU(tag, tiles.z_min.get() + at);
-  const Vector z_max = hn::LoadU(tag, tiles.z_max.get() + at);
+  const FloatTag real;
+  if (t.kind != DepthKind::kShort && t.kind != DepthKind::kLong) {
+    hn::Store(set(t.plane.low), tag, out.low);
+    hn::Store(set(t.plane.high), tag, out.high);
+    return;
+  }
+  const auto first = static_cast<float>(t.depth_at(x, y));
+  const auto step = hn::Set(real, static_cast<float>(t.gradient_x * stride));
+  const auto blocks = hn::Mul(hn::ConvertTo(real, hn::Iota(tag, 0)), step);
+  hn::Store(codes_of(hn::Add(blocks, hn::Set(real, first + t.block_least)), is_float, t), tag, out.low);
+  hn::Store(codes_of(hn::Add(blocks, hn::Set(real, first + t.block_most)), is_float, t), tag, out.high);
+}
+
+/// kWidth tiles or blocks, given the bounds of their codes.
+HWY_INLINE Outcome outcome(DepthFunc func, Vector low, Vector high, const std::int32_t* least,
+                           const std::int32_t* most) {
+  const Tag tag;
+  const Vector z_min = hn::LoadU(tag, least);
+  const Vector z_max = hn::LoadU(tag, most);
   constexpr std::uint32_t kAllLanes = (1u << kWidth) - 1;
   switch (func) {
     case DepthFunc::kNever:
@@ -92,8 +112,9 @@ HWY_INLINE Outcome outcome(DepthFunc func, const CodeRange& range, const Surface
                            std::size_t at) {
   Outcome all;
   for (int i = 0; i < kLanes; i += kWidth) {
-    const Outcome some = outcome(func, hn::Load(Tag(), range.low + i), hn::Load(Tag(), range.high + i), tiles,
-                                 at + static_cast<std::size_t>(i));
+    const std::size_t first = at + static_cast<std::size_t>(i);
+    const Outcome some = outcome(func, hn::Load(Tag(), range.low + i), hn::Load(Tag(), range.high + i),
+                                 tiles.z_min.get() + first, tiles.z_max.get() + first);
     all.killed |= some.killed << i;
     all.passed |= some.passed << i;
   }

@@ -65,33 +65,96 @@ class EarlyZ {
   }
 
  private:
-  /// Blocks that are covered whole.
-  HWY_INLINE void blocks(const Visit& row) {
+  /// Blocks that are covered whole. Those all of whose samples die, or pass, need no tile.
+  HWY_NOINLINE void blocks(const Visit& row) {
+    Triangle& t = *row.triangle;
+    const std::uint32_t x = row.block_x + static_cast<std::uint32_t>(std::countr_zero(row.blocks));
+    const int stride = static_cast<int>(task_.columns.mask + 1);
     Visit visit;
     visit.triangle = row.triangle;
     visit.block_y = row.block_y;
     visit.partial = 0;
-    for (std::uint32_t left = row.blocks; left != 0; left &= left - 1) {
-      visit.block_x = row.block_x + static_cast<std::uint32_t>(std::countr_zero(left));
-      if (tiles_ != nullptr) {
-        tiles_->open(tiles_->block(visit.block_x, visit.block_y));
+    Outcome sure;
+    CodeRange range;
+    if (t.kind != DepthKind::kNone) {
+      const std::uint32_t first = tiles_->block(x, row.block_y);
+      for (std::uint32_t i = 0; i < ones(row.blocks); ++i) {
+        bound(first + i);
       }
+      block_code_range(t, static_cast<int>(x) * block_size_, static_cast<int>(row.block_y) * block_size_,
+                       stride * block_size_, is_float_, range);
+      sure = outcome(state_.func, hn::Load(Tag(), range.low), hn::Load(Tag(), range.high),
+                     tiles_->block_min.get() + first, tiles_->block_max.get() + first);
+      sure.passed = can_pass_whole(t) ? sure.passed & ~sure.killed : 0;
+    }
+    for (std::uint32_t i = 0; i < ones(row.blocks); ++i) {
+      visit.block_x = x + i * static_cast<std::uint32_t>(stride);
+      const bool passes = (sure.passed >> i & 1) != 0;
+      if (passes && state_.write) {
+        tiles_->become_plane(tiles_->block(visit.block_x, visit.block_y), plane_number(t), range.low[i],
+                             range.high[i]);
+      }
+      const bool is_sure = passes || (sure.killed >> i & 1) != 0;
       for (int group = 0; group < groups_; ++group) {
         visit.group = static_cast<std::uint32_t>(group);
         visit.whole = all_tiles_;
-        if (visit.triangle->kind != DepthKind::kNone) {
-          code_range(*visit.triangle, static_cast<int>(visit.block_x) * block_size_,
-                     static_cast<int>(visit.block_y) * block_size_ + group * group_rows_ * TileSize, is_float_,
-                     visit.range);
+        if (is_sure) {
+          sure_tiles(visit, passes ? all_tiles_ : 0);
+        } else {
+          open_tiles(visit);
         }
-        tiles(visit, nullptr);
       }
     }
+  }
+
+  /// Tiles of a block that is covered whole, of which it is known that those in `passed` pass and the others
+  /// die.
+  HWY_INLINE void sure_tiles(const Visit& visit, std::uint32_t passed) {
+    begin(visit);
+    tallies_.survivors += ones(passed) * kSamples;
+    decided_whole(visit.whole, passed);
+    finish(visit.whole, passed);
+  }
+
+  /// Tiles of a block that is covered whole, of which nothing is known.
+  HWY_INLINE void open_tiles(Visit& visit) {
+    if (visit.triangle->kind != DepthKind::kNone) {
+      code_range(*visit.triangle, static_cast<int>(visit.block_x) * block_size_,
+                 static_cast<int>(visit.block_y) * block_size_ +
+                     static_cast<int>(visit.group) * group_rows_ * TileSize,
+                 is_float_, visit.range);
+    }
+    tiles(visit, nullptr);
+  }
+
+  /// Makes sure that the bounds of a block hold.
+  HWY_INLINE void bound(std::uint32_t block) {
+    if (tiles_->is_bounded(block)) {
+      return;
+    }
+    if (!tiles_->is_open(block)) {
+      tiles_->become_plane(block, kResolved, tiles_->cleared_to, tiles_->cleared_to);
+      return;
+    }
+    const Tag tag;
+    const std::int32_t* const z_min = tiles_->z_min.get() + block * tiles_->entries;
+    const std::int32_t* const z_max = tiles_->z_max.get() + block * tiles_->entries;
+    Vector least = hn::LoadU(tag, z_min);
+    Vector most = hn::LoadU(tag, z_max);
+    // Entries behind the last tile of a small block are what it began with.
+    for (std::size_t i = kWidth; i < tiles_->entries; i += kWidth) {
+      least = hn::Min(least, hn::LoadU(tag, z_min + i));
+      most = hn::Max(most, hn::LoadU(tag, z_max + i));
+    }
+    tiles_->bound(block, hn::GetLane(hn::MinOfLanes(tag, least)), hn::GetLane(hn::MaxOfLanes(tag, most)));
   }
 
   HWY_INLINE void tiles(const Visit& visit, const std::uint64_t* masks) {
     const std::uint32_t touched = visit.whole | visit.partial;
     begin(visit);
+    if (tiles_ != nullptr) {
+      tiles_->open(block_);
+    }
     Passed passed;
     if (visit.triangle->kind == DepthKind::kNone) {
       decided_whole(visit.whole, visit.whole);
@@ -100,14 +163,22 @@ class EarlyZ {
           visit.whole | partial_tiles(visit.partial, masks, [](int, std::uint64_t mask) { return mask; });
     } else {
       passed = test(*visit.triangle, visit, masks);
+      if (passed.some != 0 && state_.write) {
+        tiles_->change(block_);
+      }
     }
+    finish(touched, passed.some);
+  }
+
+  /// `passed`: tiles of which a sample did.
+  HWY_INLINE void finish(std::uint32_t touched, std::uint32_t passed) {
     if (touches_depth_) {
-      look_up(touched, state_.write ? passed.some : 0);
+      look_up(touched, state_.write ? passed : 0);
       if (tells_accesses_) {
         tell_accesses(touched);
       }
     }
-    counters_.early_z.tiles_killed += ones(touched & ~passed.some);
+    counters_.early_z.tiles_killed += ones(touched & ~passed);
   }
 
   struct Passed {
@@ -115,7 +186,7 @@ class EarlyZ {
     std::uint32_t some = 0;   ///< tiles of which a sample passed
   };
 
-  void begin(const Visit& visit) {
+  HWY_INLINE void begin(const Visit& visit) {
     first_x_ = static_cast<int>(visit.block_x) << tile_shift_;
     first_y_ = (static_cast<int>(visit.block_y) << tile_shift_) + static_cast<int>(visit.group) * group_rows_;
     number_ = visit.triangle->number;
@@ -185,10 +256,8 @@ class EarlyZ {
     const std::uint32_t killed = sure.killed;
     const std::uint32_t passed = sure.passed;
     const std::uint32_t whole = visit.whole;
-    // A plane that nobody can resolve later is tested like any.
-    const bool lazy = t.kind != DepthKind::kUnits || state_.interpolator == DepthInterpolator::kPlane;
     Passed result;
-    result.whole = lazy || !state_.write ? whole & passed & ~killed : 0;
+    result.whole = can_pass_whole(t) ? whole & passed & ~killed : 0;
     if (result.whole != 0 && state_.write) {
       become_plane(t, result.whole, range);
     }
@@ -197,19 +266,25 @@ class EarlyZ {
     result.some = result.whole;
     for (std::uint32_t open = whole & ~(killed | result.whole); open != 0; open &= open - 1) {
       const std::uint64_t all = kAll;
-      result.some |= partial_tiles(open & -open, &all, [&](int lane, std::uint64_t mask) HWY_ATTR {
-        return test_tile(t, lane, mask, range);
-      });
+      result.some |=
+          partial_tiles(open & -open, &all, [&](int lane, std::uint64_t mask) HWY_ATTR HALFSPACE_INLINED {
+            return test_tile(t, lane, mask, range);
+          });
     }
     const std::uint32_t passed_unwritten = state_.write ? 0 : passed;
-    result.some |=
-        partial_tiles(visit.partial, masks, [&](int lane, std::uint64_t mask) HWY_ATTR -> std::uint64_t {
+    result.some |= partial_tiles(
+        visit.partial, masks, [&](int lane, std::uint64_t mask) HWY_ATTR HALFSPACE_INLINED -> std::uint64_t {
           if ((killed >> lane & 1) != 0) {
             return 0;
           }
           return (passed_unwritten >> lane & 1) != 0 ? mask : test_tile(t, lane, mask, range);
         });
     return result;
+  }
+
+  /// A plane that nobody can resolve later is tested like any.
+  [[nodiscard]] HWY_INLINE bool can_pass_whole(const Triangle& t) const {
+    return !state_.write || t.kind != DepthKind::kUnits || state_.interpolator == DepthInterpolator::kPlane;
   }
 
   /// Tiles that are covered whole, and all of whose samples die, or pass.
@@ -238,7 +313,7 @@ class EarlyZ {
   }
 
   /// The codes of tiles are those of the triangle's plane.
-  void become_plane(Triangle& t, std::uint32_t lanes, const CodeRange& range) {
+  HWY_INLINE void become_plane(Triangle& t, std::uint32_t lanes, const CodeRange& range) {
     const Tag tag;
     const Vector number = set(plane_number(t));
     for (int i = 0; i < kLanes; i += kWidth) {

@@ -249,10 +249,12 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, TileW
   const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
   std::uint32_t* stored = nullptr;
   std::size_t at = 0;
+  std::uint32_t block = 0;
   if (task_.surface != nullptr) {
     stored = task_.surface->codes.tile(job.tile_x, job.tile_y);
-    task_.tiles->open(task_.tiles->block(static_cast<std::uint32_t>(job.tile_x >> task_.tiles->block_shift),
-                                         static_cast<std::uint32_t>(job.tile_y >> task_.tiles->block_shift)));
+    block = task_.tiles->block(static_cast<std::uint32_t>(job.tile_x >> task_.tiles->block_shift),
+                               static_cast<std::uint32_t>(job.tile_y >> task_.tiles->block_shift));
+    task_.tiles->open(block);
     at = task_.tiles->index(job.tile_x, job.tile_y);
     if (task_.tiles->plane[at] != kResolved) {
       resolve(tile_size_, walker_.sub_pixel_bits, columns_, *task_.surface, *task_.tiles);
@@ -264,6 +266,7 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, TileW
     const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize);
     task_.tiles->z_min[at] = static_cast<std::int32_t>(*least);
     task_.tiles->z_max[at] = static_cast<std::int32_t>(*most);
+    task_.tiles->change(block);
     if (task_.counts_pixels || draw.keeps_visible || draw.sums != nullptr) {
       passage::sink<TileSize>(coverage.mask, passed, job.tile_x, job.tile_y, triangle.triangle, draw,
                               task_.surface);

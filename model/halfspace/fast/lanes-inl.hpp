@@ -13,6 +13,10 @@
 
 #include "halfspace/fast/block_cache.hpp"
 
+/// For lambdas in the innermost loops, which GCC calls where a function is used in more than one place.
+#undef HALFSPACE_INLINED
+#define HALFSPACE_INLINED __attribute__((always_inline))
+
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {

@@ -119,9 +119,11 @@ void resolve_tiles(int sub_pixel_bits, Columns columns, Surface& surface, Surfac
   const int side = 1 << tiles.block_shift;
   for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
     const SurfaceTiles::Tile first = tiles.first_tile(block);
-    if (tiles.opened[block] != tiles.epoch || !columns.has(static_cast<std::uint32_t>(first.x / side))) {
+    const bool is_cleared = !tiles.is_open(block) && !tiles.is_bounded(block);
+    if (is_cleared || !columns.has(static_cast<std::uint32_t>(first.x / side))) {
       continue;
     }
+    tiles.open(block);
     for (int i = 0; i < side * side; ++i) {
       std::uint32_t& plane = tiles.plane[block * tiles.entries + static_cast<std::size_t>(i)];
       if (plane != kResolved) {

@@ -319,6 +319,7 @@ class Small {
         const auto at = static_cast<std::size_t>(found_.at[q][lane]);
         tiles.z_min[at] = std::min(tiles.z_min[at], in_->low[first_ + lane]);
         tiles.z_max[at] = std::max(tiles.z_max[at], in_->high[first_ + lane]);
+        tiles.change(static_cast<std::uint32_t>(found_.block[q][lane]));
       }
       const std::uint32_t block = task_.cached.first + static_cast<std::uint32_t>(found_.block[q][lane]);
       const auto entry = static_cast<std::size_t>(found_.entry[q][lane]);

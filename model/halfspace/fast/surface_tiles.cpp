@@ -16,7 +16,8 @@ std::uint32_t blocks_of_thread(std::uint32_t columns, int tiles_y, int block_til
   constexpr std::uint32_t kLine = 64;  // bytes of the processor's cache: a block has one, or more
   const std::uint32_t blocks =
       columns * static_cast<std::uint32_t>((tiles_y + block_tiles - 1) / block_tiles);
-  return threads == 1 ? blocks : (blocks + kLine - 1) / kLine * kLine;
+  // and vectors read past the last
+  return threads == 1 ? blocks : (blocks + kLanes + kLine - 1) / kLine * kLine;
 }
 
 }  // namespace
@@ -29,10 +30,14 @@ SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_til
       of_thread(blocks_of_thread(across, codes.tiles_y(), block_tiles, threads)),
       blocks(of_thread * threads),
       entries(static_cast<std::size_t>(std::max(block_tiles * block_tiles, kLanes))),
+      block_min(unset_array<std::int32_t>(blocks + kLanes)),  // vectors read past the last
+      block_max(unset_array<std::int32_t>(blocks + kLanes)),
+      block_plane(unset_array<std::uint32_t>(blocks)),
+      bounded(zeroed_array<std::uint8_t>(blocks)),
+      opened(zeroed_array<std::uint8_t>(blocks)),
       z_min(unset_array<std::int32_t>(blocks * entries)),
       z_max(unset_array<std::int32_t>(blocks * entries)),
       plane(unset_array<std::uint32_t>(blocks * entries)),
-      opened(zeroed_array<std::uint8_t>(blocks)),
       whole_fragments(unset_array<std::int32_t>(blocks * entries)),
       whole_survivors(unset_array<std::int32_t>(blocks * entries)),
       counted(zeroed_array<std::uint8_t>(blocks)),
@@ -46,7 +51,8 @@ void SurfaceTiles::clear(std::uint32_t code) {
   }
   cleared_to = static_cast<std::int32_t>(code);
   ++epoch;
-  if (epoch == 0) {  // before a number comes again, all flags go back to zero, which is no epoch
+  if (epoch == kNever) {  // before a number comes again, all flags go back
+    bounded = zeroed_array<std::uint8_t>(blocks);
     opened = zeroed_array<std::uint8_t>(blocks);
     epoch = 1;
   }
@@ -100,10 +106,13 @@ void SurfaceTiles::put_counts(TiledImage<std::uint16_t>& fragments,
 }
 
 void SurfaceTiles::start(std::uint32_t number) {
+  if (!is_bounded(number)) {
+    become_plane(number, kResolved, cleared_to, cleared_to);
+  }
   const std::size_t first = number * entries;
-  std::fill_n(z_min.get() + first, entries, cleared_to);
-  std::fill_n(z_max.get() + first, entries, cleared_to);
-  std::fill_n(plane.get() + first, entries, kResolved);
+  std::fill_n(z_min.get() + first, entries, block_min[number]);
+  std::fill_n(z_max.get() + first, entries, block_max[number]);
+  std::fill_n(plane.get() + first, entries, block_plane[number]);
   opened[number] = epoch;
 }
 

@@ -2,10 +2,12 @@
 /// plane they still are.
 ///
 /// A tile that a triangle covered whole, each of whose samples passed, is that triangle's plane: its codes
-/// are made when somebody looks at them. What is known of a block's tiles is there when the block is opened:
-/// like TiledImage, the lists take memory where something is drawn.
+/// are made when somebody looks at them. So is a block, until something that does not cover it whole opens
+/// it: what is known of its tiles is there from then on. Like TiledImage, the lists take memory where
+/// something is drawn.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,9 +37,25 @@ struct SurfaceTiles {
 
   /// Before something looks at the tiles of a block.
   void open(std::uint32_t number) {
-    if (opened[number] != epoch) [[unlikely]] {
+    if (!is_open(number)) [[unlikely]] {
       start(number);
     }
+  }
+  [[nodiscard]] bool is_open(std::uint32_t number) const { return opened[number] == epoch; }
+  /// Samples of a block that is open have changed.
+  void change(std::uint32_t number) { bounded[number] = kNever; }
+  /// Whether block_min and block_max hold.
+  [[nodiscard]] bool is_bounded(std::uint32_t number) const { return bounded[number] == epoch; }
+  void bound(std::uint32_t number, std::int32_t low, std::int32_t high) {
+    block_min[number] = low;
+    block_max[number] = high;
+    bounded[number] = epoch;
+  }
+  /// A block is a plane, with codes from `low` to `high`, or kResolved and what clears it.
+  void become_plane(std::uint32_t number, std::uint32_t plane_number, std::int32_t low, std::int32_t high) {
+    bound(number, low, high);
+    block_plane[number] = plane_number;
+    opened[number] = kNever;
   }
 
   /// Before the counts of a block's tiles are added to.
@@ -92,27 +110,34 @@ struct SurfaceTiles {
     lists[list].equations.clear();
   }
 
-  int block_shift = 0;            ///< log2 of the tiles on a side of a block
-  int thread_shift = 0;           ///< log2 of the threads
-  std::uint32_t across = 0;       ///< columns of blocks of a thread
-  std::uint32_t of_thread = 0;    ///< blocks of a thread, with some that no tile is in
-  std::uint32_t blocks = 0;       ///< of all threads
-  std::size_t entries = 0;        ///< of a block: its tiles in row order, and groups of kLanes full
+  int block_shift = 0;          ///< log2 of the tiles on a side of a block
+  int thread_shift = 0;         ///< log2 of the threads
+  std::uint32_t across = 0;     ///< columns of blocks of a thread
+  std::uint32_t of_thread = 0;  ///< blocks of a thread, with some that no tile is in
+  std::uint32_t blocks = 0;     ///< of all threads
+  std::size_t entries = 0;      ///< of a block: its tiles in row order, and groups of kLanes full
+  // By block. One that is neither bounded nor open is as it was cleared.
+  LazyArray<std::int32_t> block_min;  ///< no code of the block is less
+  LazyArray<std::int32_t> block_max;
+  LazyArray<std::uint32_t> block_plane;  ///< where it is not open: as `plane`
+  LazyArray<std::uint8_t> bounded;       ///< the epoch in which block_min and block_max hold
+  LazyArray<std::uint8_t> opened;        ///< the epoch in which its tiles are what counts
+  // By tile, where the block is open.
   LazyArray<std::int32_t> z_min;  ///< no code of the tile is less
   LazyArray<std::int32_t> z_max;
   LazyArray<std::uint32_t> plane;  ///< its number, or kResolved
-  LazyArray<std::uint8_t> opened;  ///< by block: the epoch in which it was
   std::uint8_t epoch = 0;          ///< counts clears
   // Of pixels, what is the same for all of a tile; clears leave it.
   LazyArray<std::int32_t> whole_fragments;
   LazyArray<std::int32_t> whole_survivors;
   LazyArray<std::uint8_t> counted;  ///< by block: the frame in which it was
   std::uint8_t frame = 1;           ///< counts frames
-  std::int32_t cleared_to = 0;      ///< what blocks are that have not been opened since
+  std::int32_t cleared_to = 0;      ///< what blocks are that are neither bounded nor open
   std::vector<PlaneList> lists;
 
  private:
-  static constexpr int kListShift = 24;  ///< of a number
+  static constexpr std::uint8_t kNever = 0;  ///< no epoch
+  static constexpr int kListShift = 24;      ///< of a number
   static constexpr std::uint32_t kInList = (1u << kListShift) - 1;
 
   void start(std::uint32_t number);

@@ -56,10 +56,15 @@ struct Triangle {
   double depth_origin;  ///< at pixel (0, 0) of the screen
   float tile_least;     ///< from a tile's first sample to its least
   float tile_most;
+  float block_least;  ///< the same of a block
+  float block_most;
   const SetupTriangle* whole;  ///< kUnits
 
   [[nodiscard]] HWY_INLINE std::int64_t at(std::size_t edge, int x, int y) const {
     return e[edge] + std::int64_t{a[edge]} * x + std::int64_t{b[edge]} * y;
+  }
+  [[nodiscard]] HWY_INLINE double depth_at(int x, int y) const {
+    return depth_origin + gradient_x * x + gradient_y * y;
   }
 };
 
@@ -125,9 +130,14 @@ HWY_INLINE void load_bounds(double gradient_x, double gradient_y, double unit, d
   const auto margin = static_cast<float>(least_margin + (highest + 2 * reach) * 0x1p-20);
   const auto gx = static_cast<float>(dx);
   const auto gy = static_cast<float>(dy);
-  const float side = TileSize - 1;
-  out.tile_least = side * (std::min(gx, 0.0F) + std::min(gy, 0.0F)) - margin;
-  out.tile_most = side * (std::max(gx, 0.0F) + std::max(gy, 0.0F)) + margin;
+  const float down = std::min(gx, 0.0F) + std::min(gy, 0.0F);
+  const float up = std::max(gx, 0.0F) + std::max(gy, 0.0F);
+  const float tile_side = TileSize - 1;
+  const auto block_side = static_cast<float>(task.walker.block_size - 1);
+  out.tile_least = tile_side * down - margin;
+  out.tile_most = tile_side * up + margin;
+  out.block_least = block_side * down - margin;
+  out.block_most = block_side * up + margin;
   const int block_tiles = task.walker.block_size / TileSize;
   const int shift = std::countr_zero(static_cast<unsigned>(block_tiles));
   const FloatTag tag;

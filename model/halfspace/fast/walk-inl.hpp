@@ -33,7 +33,7 @@ struct Visit {
   std::uint32_t block_y;
   std::uint32_t blocks;  ///< covered whole, a bit each from block_x on; 0: the visit is of tiles, as follows
   std::uint32_t group;   ///< of the block
-  std::uint16_t whole;  ///< a bit a tile
+  std::uint16_t whole;   ///< a bit a tile
   std::uint16_t partial;
   std::uint32_t first_mask;  ///< of the partial ones
   CodeRange range;           ///< where the triangle has depth
@@ -154,13 +154,14 @@ class Walk {
         count_block(x + std::countr_zero(left), y, TileVerdict::kReject);
       }
       const std::uint32_t whole = verdict.whole();
-      const std::uint32_t accepted = sums_ == nullptr ? own & whole & filled_blocks(t.bounds, x, y) : 0;
+      const std::uint32_t accepted = own & whole & filled_blocks(t.bounds, x, y);
       int next = 0;
       for (std::uint32_t left = own & ~verdict.rejected; left != 0;) {
         const int i = std::countr_zero(left);
         steps_ += static_cast<std::uint32_t>(i - next);
         if ((accepted >> i & 1) != 0) {
           // They are neighbours: no other comes between.
+          steps_ += 1;
           accepted_blocks(t, x, y, accepted, flush);
           next = std::bit_width(accepted);
           left &= ~accepted;
@@ -185,8 +186,9 @@ class Walk {
     return first < end ? (1u << end) - (1u << first) : 0;
   }
 
+  /// Blocks that are covered whole, a bit each from (x, y) on. The step of the first has been counted.
   template <class Flush>
-  HWY_INLINE void accepted_blocks(Triangle& t, int x, int y, std::uint32_t blocks, Flush&& flush) {
+  HWY_NOINLINE void accepted_blocks(Triangle& t, int x, int y, std::uint32_t blocks, Flush&& flush) {
     if (visit_count_ == kMostVisits) {
       flush();
     }
@@ -196,15 +198,18 @@ class Walk {
     visit.block_y = static_cast<std::uint32_t>(y);
     visit.blocks = blocks;
     count_accepted(ones(blocks));
-    if (stream_ == nullptr) {
+    if (stream_ == nullptr && sums_ == nullptr) {
       return;
     }
     for (std::uint32_t left = blocks; left != 0; left &= left - 1) {
-      ++steps_;
+      const int block = x + std::countr_zero(left);
+      count_block(block, y, TileVerdict::kAccept);
       for (int group = 0; group < groups_; ++group) {
         const std::uint32_t all = all_tiles(group);
+        count_quads(block, y, group, all, 0, nullptr);
         tell_jobs(all, all, all, nullptr);
       }
+      steps_ += (left & (left - 1)) != 0 ? 1 : 0;
     }
   }
 
@@ -249,11 +254,7 @@ class Walk {
                         inside.y_last - inside.y_first == block_size_ - 1;
     steps_ += decided ? 1 : 0;
     if (covered && filled) {
-      count_accepted(1);
-      count_block(x, y, TileVerdict::kAccept);
-      for (int group = 0; group < groups_; ++group) {
-        add(t, x, y, group, all_tiles(group), flush);
-      }
+      accepted_blocks(t, x, y, 1, flush);
       return;
     }
     counters_.tile_walker.blocks_partial += decided ? 1 : 0;
@@ -269,18 +270,6 @@ class Walk {
         e[k] += t.b[k] * group_rows_ * TileSize;
       }
     }
-  }
-
-  template <class Flush>
-  HWY_INLINE void add(Triangle& t, int x, int y, int group, std::uint32_t whole, Flush&& flush) {
-    if (visit_count_ == kMostVisits) {
-      flush();
-    }
-    Visit& visit = begin_visit(t, x, y, group);
-    visit.whole = static_cast<std::uint16_t>(whole);
-    ++visit_count_;
-    count_quads(visit);
-    tell_jobs(whole, whole, whole, nullptr);
   }
 
   /// It is a visit when it is counted.
@@ -396,7 +385,7 @@ class Walk {
     counters_.edge_evaluator.tiles_empty +=
         static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
     visit_count_ += (visit.whole | visit.partial) != 0 ? 1 : 0;
-    count_quads(visit);
+    count_quads(x, y, group, visit.whole, visit.partial, masks(visit));
     tell_jobs(decided, touched, whole, quads.data());
   }
 
@@ -455,17 +444,17 @@ class Walk {
     count(partial, TileVerdict::kPartial);
   }
 
-  void count_quads(const Visit& visit) {
+  /// `mask`: of the partial tiles.
+  void count_quads(int x, int y, int group, std::uint32_t whole, std::uint32_t partial,
+                   const std::uint64_t* mask) {
     if (sums_ == nullptr) {
       return;
     }
-    const int first_x = static_cast<int>(visit.block_x) << tile_shift_;
-    const int first_y =
-        (static_cast<int>(visit.block_y) << tile_shift_) + static_cast<int>(visit.group) * group_rows_;
-    const std::uint64_t* mask = masks(visit);
-    for (std::uint32_t left = visit.whole | visit.partial; left != 0; left &= left - 1) {
+    const int first_x = x << tile_shift_;
+    const int first_y = (y << tile_shift_) + group * group_rows_;
+    for (std::uint32_t left = whole | partial; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      const std::uint64_t covered = (visit.whole >> i & 1) != 0 ? kAll : *mask++;
+      const std::uint64_t covered = (whole >> i & 1) != 0 ? kAll : *mask++;
       passage::count_quads<TileSize>(*sums_, first_x + (i & (block_tiles_ - 1)), first_y + (i >> tile_shift_),
                                      {{covered}});
     }
