@@ -65,6 +65,14 @@ bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and l
 	.venv/bin/python tools/plot_speed.py out/speed/speed.json docs/images/speed.svg
 	tools/write_figures.py bench-speed
 
+.PHONY: bench-profile
+bench-profile: build/release/build.ninja ## Sample where the fast core spends its time, with perf; write docs/guides/speed.md's table.
+	cmake --preset profile --log-level=WARNING
+	cmake --build --preset profile
+	@mkdir -p out/speed
+	tools/profile_speed.py build/profile/bin/halfspace $(CAPTURED) > out/speed/profile.md
+	tools/write_figures.py bench-profile
+
 .PHONY: bench-history
 bench-history: speed $(PLOT_TOOLS) ## Measure the same, and append it to docs/speed_history.csv and its picture.
 	tools/bench_history.py out/speed/speed.json docs/speed_history.csv

@@ -3,7 +3,7 @@
 
     tools/profile_speed.py build/profile/bin/halfspace [INPUT...] > out/speed/profile.md
 
-INPUT is as for `halfspace bench speed`. The program needs line numbers and a fixed address: CMake's preset
+The program needs line numbers and a fixed address: CMake's preset
 `profile`. A sample belongs to the innermost function of the fast core that was at work, inlined or not.
 Needs perf (Debian: linux-perf) and addr2line (binutils), and the right to sample.
 """
@@ -100,11 +100,11 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("inputs", nargs="*", metavar="INPUT", default=[f"synthetic:{name}:full" for name in LISTS])
+    parser.add_argument("inputs", nargs="*", metavar="INPUT", help="in addition to the ten synthetic lists")
     options = parser.parse_args()
     print(f"| workload | ms | {' | '.join(STAGES)} |")
     print("|---|---:|" + "---:|" * len(STAGES))
-    for workload in options.inputs:
+    for workload in [*(f"synthetic:{name}:full" for name in LISTS), *options.inputs]:
         milliseconds, shares = profile(str(options.program), workload)
         name = pathlib.Path(workload).name.split(".")[0].removeprefix("synthetic:")
         cells = " | ".join(f"{100 * shares[stage]:.0f} %" for stage in STAGES)

@@ -102,6 +102,11 @@ def bench_speed(tools):
     return f"{processor()}; {method}.\n\n{rows}"
 
 
+def bench_profile(tools):
+    """The table that tools/profile_speed.py wrote; see the Makefile."""
+    return f"{processor()}.\n\n{(ROOT / 'out/speed/profile.md').read_text().strip()}"
+
+
 def bench_stages(tools):
     lists = [f"synthetic:{name}:full" for name in ("tiny_rand", "medium", "large_btf", "sliver", "mesh_crowd")]
     inputs = ["scenes/cc0_truck.ptf.xz", *lists]
@@ -163,11 +168,12 @@ FIGURES = {
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),
+    "bench-profile": ("docs/guides/speed.md", bench_profile),
     "bench-stages": ("docs/guides/speed.md", bench_stages),
     "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
 }
-# The others need the RTL or minutes: `make bench-error`, `make depth-error`, `make bench-speed bench-stages bench-surfaces`.
-SLOW = ("depth-error", "bench-error", "bench-speed", "bench-stages", "bench-surfaces")
+# The others need the RTL, a profiler or minutes: a target of the Makefile each.
+SLOW = ("depth-error", "bench-error", "bench-speed", "bench-profile", "bench-stages", "bench-surfaces")
 ALL = [name for name in FIGURES if name not in SLOW]
 
 
@@ -176,7 +182,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last five)")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last six)")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")

@@ -11,6 +11,7 @@ void add_bench_command(CLI::App& app, int& status) {
   CLI::App* bench = app.add_subcommand("bench", "measure speed and error");
   bench->require_subcommand(1);
   add_bench_speed(*bench);
+  add_bench_roof(*bench);
   add_bench_stages(*bench);
   add_bench_surfaces(*bench);
   add_bench_time(*bench);

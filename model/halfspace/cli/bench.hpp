@@ -27,6 +27,7 @@ inline double median(std::vector<double> times) {
 }
 
 void add_bench_speed(CLI::App& bench);
+void add_bench_roof(CLI::App& bench);
 void add_bench_stages(CLI::App& bench);
 void add_bench_surfaces(CLI::App& bench);
 void add_bench_time(CLI::App& bench);
