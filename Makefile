@@ -70,8 +70,8 @@ bench-profile: build/release/build.ninja ## Sample where the fast core spends it
 	cmake --preset profile --log-level=WARNING
 	cmake --build --preset profile
 	@mkdir -p out/speed
-	tools/profile_speed.py build/profile/bin/halfspace $(CAPTURED) > out/speed/profile.md
-	tools/write_figures.py bench-profile
+	tools/profile_speed.py build/profile/bin/halfspace scenes/cc0_truck.ptf.xz $(CAPTURED) > out/speed/profile.md
+	tools/write_figures.py bench-profile --captured $(CAPTURED)
 
 .PHONY: bench-history
 bench-history: speed $(PLOT_TOOLS) ## Measure the same, and append it to docs/speed_history.csv and its picture.
@@ -130,7 +130,7 @@ clean: ## Remove everything that was built.
 	rm -rf build out .venv
 
 # Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
-FIGURES := demo-figure bench-frames bench-stages bench-surfaces bench-time bench-sampled reference-figure
+FIGURES := demo-figure bench-frames bench-roof bench-stages bench-surfaces bench-time bench-sampled reference-figure
 .PHONY: docs-figures $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool

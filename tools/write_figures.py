@@ -102,9 +102,15 @@ def bench_speed(tools):
     return f"{processor()}; {method}.\n\n{rows}"
 
 
+def bench_roof(tools):
+    method, rows = output(tools.program, "bench", "roof").split("\n\n", 1)
+    return f"{processor()}; {method}.\n\n{rows}"
+
+
 def bench_profile(tools):
     """The table that tools/profile_speed.py wrote; see the Makefile."""
-    return f"{processor()}.\n\n{(ROOT / 'out/speed/profile.md').read_text().strip()}"
+    rows = (ROOT / "out/speed/profile.md").read_text().strip()
+    return f"{processor()}.\n\n" + marked(rows, map(frame_name, tools.captured))
 
 
 def bench_stages(tools):
@@ -168,12 +174,13 @@ FIGURES = {
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),
+    "bench-roof": ("docs/guides/speed.md", bench_roof),
     "bench-profile": ("docs/guides/speed.md", bench_profile),
     "bench-stages": ("docs/guides/speed.md", bench_stages),
     "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
 }
 # The others need the RTL, a profiler or minutes: a target of the Makefile each.
-SLOW = ("depth-error", "bench-error", "bench-speed", "bench-profile", "bench-stages", "bench-surfaces")
+SLOW = ("depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profile", "bench-stages", "bench-surfaces")
 ALL = [name for name in FIGURES if name not in SLOW]
 
 
@@ -182,7 +189,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last six)")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last seven)")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
