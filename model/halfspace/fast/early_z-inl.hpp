@@ -154,6 +154,9 @@ class EarlyZ {
     begin(visit);
     if (tiles_ != nullptr) {
       tiles_->open(block_);
+      if (task_.counts_pixels) {
+        tiles_->open_counts(block_);
+      }
     }
     Passed passed;
     if (visit.triangle->kind == DepthKind::kNone) {
@@ -223,11 +226,10 @@ class EarlyZ {
     tallies_.survivors += ones(passed);
     note(lane, mask, passed);
     if (task_.counts_pixels) {
-      const int x = tile_x(lane);
-      const int y = tile_y(lane);
-      count_pixels(mask, task_.surface->fragments.tile(x, y));
+      const std::size_t at = at_ + static_cast<std::size_t>(lane);
+      tiles_->fragments.add(at, mask);
       if (passed != 0) {
-        count_pixels(passed, task_.surface->survivors.tile(x, y));
+        tiles_->survivors.add(at, passed);
       }
     }
   }
@@ -501,19 +503,6 @@ class EarlyZ {
         reinterpret_cast<std::int32_t*>(task_.surface->visible.tile(tile_x(lane), tile_y(lane)));
     for (int i = 0; i < kSamples; i += kWidth) {
       hn::BlendedStore(set(shown), mask_of(passed >> i), Tag(), visible + i);
-    }
-  }
-
-  /// Adds 1 where the mask is set, up to the largest value.
-  static void count_pixels(std::uint64_t mask, std::uint16_t* counts) {
-    const hn::CappedTag<std::uint16_t, kSamples> tag;
-    constexpr int kStep = static_cast<int>(hn::MaxLanes(tag));
-    for (int i = 0; i < kSamples; i += kStep) {
-      const std::uint64_t bits = mask >> i;
-      const auto lanes = hn::LoadMaskBits(tag, reinterpret_cast<const std::uint8_t*>(&bits));
-      const auto count = hn::LoadU(tag, counts + i);
-      hn::StoreU(hn::SaturatedAdd(count, hn::IfThenElseZero(lanes, hn::Set(tag, std::uint16_t{1}))), tag,
-                 counts + i);
     }
   }
 

@@ -116,7 +116,7 @@ std::vector<Surface> FrameMemory::take() {
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     resolve(config.tile_walker.tile_size, config.raster.sub_pixel_bits, {}, surfaces[i], tiles[i]);
     if (!surfaces[i].fragments.empty()) {
-      tiles[i].put_counts(surfaces[i].fragments, surfaces[i].survivors);
+      put_counts(config.tile_walker.tile_size, tiles[i], surfaces[i]);
     }
   }
   tiles.clear();

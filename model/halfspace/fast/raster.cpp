@@ -4,6 +4,7 @@
 // after foreach_target, as Highway asks
 #include <hwy/highway.h>
 
+#include "halfspace/fast/pixel_counts-inl.hpp"
 #include "halfspace/fast/raster-inl.hpp"
 #include "halfspace/fast/set_up-inl.hpp"
 #include "halfspace/fast/share-inl.hpp"
@@ -19,6 +20,8 @@ HWY_EXPORT(set_up_triangles);
 HWY_EXPORT(raster_8);
 HWY_EXPORT(resolve_4);
 HWY_EXPORT(resolve_8);
+HWY_EXPORT(put_counts_4);
+HWY_EXPORT(put_counts_8);
 HWY_EXPORT(take_share_of);
 
 bool raster_takes(const SetupTriangle& triangle, const WalkerConfig& walker) {
@@ -54,6 +57,14 @@ void resolve(int tile_size, int sub_pixel_bits, Columns columns, Surface& surfac
     HWY_DYNAMIC_DISPATCH(resolve_4)(sub_pixel_bits, columns, surface, tiles);
   } else {
     HWY_DYNAMIC_DISPATCH(resolve_8)(sub_pixel_bits, columns, surface, tiles);
+  }
+}
+
+void put_counts(int tile_size, const SurfaceTiles& tiles, Surface& surface) {
+  if (tile_size == 4) {
+    HWY_DYNAMIC_DISPATCH(put_counts_4)(tiles, surface);
+  } else {
+    HWY_DYNAMIC_DISPATCH(put_counts_8)(tiles, surface);
   }
 }
 

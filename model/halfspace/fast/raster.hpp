@@ -61,6 +61,9 @@ void take_share(const SetUpTriangles& in, Columns columns, int block_size, SetUp
 /// Makes the codes of all tiles in `columns` of a surface that are planes.
 void resolve(int tile_size, int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles);
 
+/// Adds what has been counted of pixels to the image's values, up to the largest.
+void put_counts(int tile_size, const SurfaceTiles& tiles, Surface& surface);
+
 /// Codes of a tile by the units, from an equation of the interpolator `plane`. `codes`: TileSize^2, in row
 /// order.
 template <int TileSize>

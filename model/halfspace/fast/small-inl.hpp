@@ -119,8 +119,9 @@ class Small {
         hwy::Prefetch(task_.tiles->z_max.get() + at);
         prefetch(task_.surface->codes.tile(tile), first_y, last_y);
         if (task_.counts_pixels) {
-          prefetch(task_.surface->fragments.tile(tile), first_y, last_y);
-          prefetch(task_.surface->survivors.tile(tile), first_y, last_y);
+          task_.tiles->open_counts(static_cast<std::uint32_t>(found_.block[q][lane]));
+          hwy::Prefetch(task_.tiles->fragments.first_word(at));
+          hwy::Prefetch(task_.tiles->survivors.first_word(at));
         }
       }
     });
@@ -283,27 +284,38 @@ class Small {
   // ---- what follows ----
 
   HWY_INLINE void watch(std::size_t first, std::size_t count, std::uint32_t bits, const std::int32_t* at) {
-    if (!task_.counts_pixels && !task_.draw->keeps_visible) {
-      return;
+    if (task_.counts_pixels) {
+      count_pixels(first, count, bits, at);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool pass = (bits >> i & 1) != 0;
-      const auto tile = static_cast<std::size_t>(at[i]) / (TileSize * TileSize);
-      const int sample = at[i] & (TileSize * TileSize - 1);
-      if (task_.counts_pixels) {
-        std::uint16_t& fragments = task_.surface->fragments.tile(tile)[sample];
-        std::uint16_t& survivors = task_.surface->survivors.tile(tile)[sample];
-        fragments = static_cast<std::uint16_t>(fragments + (fragments != 0xFFFF ? 1 : 0));
-        survivors = static_cast<std::uint16_t>(survivors + (pass && survivors != 0xFFFF ? 1 : 0));
-      }
-      if (task_.draw->keeps_visible && pass) {
-        const auto number = static_cast<std::uint32_t>(
-            in_->number[first_ + static_cast<std::size_t>(fragment_[first + i] >> (kSampleBits + 2))]);
-        task_.surface->visible.tile(tile)[sample] =
-            task_.draw->is_clear() ? kNothingVisible : task_.draw->first_triangle + number;
-      }
+    for (std::uint32_t left = task_.draw->keeps_visible ? bits : 0; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const auto number = static_cast<std::uint32_t>(
+          in_->number[first_ + static_cast<std::size_t>(fragment_[first + i] >> (kSampleBits + 2))]);
+      task_.surface->visible.tile(static_cast<std::size_t>(at[i]) / (TileSize * TileSize))[sample_of(at[i])] =
+          task_.draw->is_clear() ? kNothingVisible : task_.draw->first_triangle + number;
     }
   }
+
+  /// Fragments of a burst lie together.
+  void count_pixels(std::size_t first, std::size_t count, std::uint32_t bits, const std::int32_t* at) {
+    SurfaceTiles& tiles = *task_.tiles;
+    for (std::size_t i = 0; i < count;) {
+      const std::int32_t burst = fragment_[first + i] >> kSampleBits;
+      std::uint64_t covered = 0;
+      std::uint64_t passed = 0;
+      for (; i < count && fragment_[first + i] >> kSampleBits == burst; ++i) {
+        const int sample = sample_of(at[i]);
+        covered |= std::uint64_t{1} << sample;
+        passed |= std::uint64_t{bits >> i & 1} << sample;
+      }
+      const auto tile = static_cast<std::size_t>(found_.at[burst % 4][burst / 4]);
+      tiles.fragments.add(tile, covered);
+      tiles.survivors.add(tile, passed);
+    }
+  }
+
+  /// In its tile, given its place in the image.
+  static int sample_of(std::int32_t at) { return at & (TileSize * TileSize - 1); }
 
   void finish() {
     counters_.early_z.tiles_killed += ones(burst_bits_ & ~alive_);

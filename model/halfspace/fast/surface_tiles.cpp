@@ -40,6 +40,8 @@ SurfaceTiles::SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_til
       plane(unset_array<std::uint32_t>(blocks * entries)),
       whole_fragments(unset_array<std::int32_t>(blocks * entries)),
       whole_survivors(unset_array<std::int32_t>(blocks * entries)),
+      fragments(blocks * entries),
+      survivors(blocks * entries),
       counted(zeroed_array<std::uint8_t>(blocks)),
       lists(threads) {
   clear(code);
@@ -82,27 +84,9 @@ void SurfaceTiles::begin_frame() {
 void SurfaceTiles::start_counts(std::uint32_t number) {
   std::fill_n(whole_fragments.get() + number * entries, entries, 0);
   std::fill_n(whole_survivors.get() + number * entries, entries, 0);
+  fragments.start(number * entries, entries);
+  survivors.start(number * entries, entries);
   counted[number] = frame;
-}
-
-void SurfaceTiles::put_counts(TiledImage<std::uint16_t>& fragments,
-                              TiledImage<std::uint16_t>& survivors) const {
-  const int tile = fragments.tile_size();
-  const auto put = [tile](std::int32_t count, TiledImage<std::uint16_t>& image, int x, int y) {
-    std::uint16_t* const pixels = count == 0 ? nullptr : image.tile(x, y);
-    for (int i = 0; count != 0 && i < tile * tile; ++i) {
-      pixels[i] = static_cast<std::uint16_t>(std::min(std::int32_t{0xFFFF}, count + pixels[i]));
-    }
-  };
-  const int side = 1 << block_shift;
-  for (std::uint32_t block = 0; block < blocks; ++block) {
-    const Tile first = first_tile(block);
-    for (int i = 0; counted[block] == frame && i < side * side; ++i) {
-      const std::size_t at = block * entries + static_cast<std::size_t>(i);
-      put(whole_fragments[at], fragments, first.x + i % side, first.y + i / side);
-      put(whole_survivors[at], survivors, first.x + i % side, first.y + i / side);
-    }
-  }
 }
 
 void SurfaceTiles::start(std::uint32_t number) {

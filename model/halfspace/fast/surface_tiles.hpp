@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "halfspace/fast/block_cache.hpp"
+#include "halfspace/fast/pixel_counts.hpp"
 #include "halfspace/fast/set_up.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/units/lazy_array.hpp"
@@ -60,12 +61,11 @@ struct SurfaceTiles {
 
   /// Before the counts of a block's tiles are added to.
   void open_counts(std::uint32_t number) {
-    if (counted[number] != frame) [[unlikely]] {
+    if (!is_counted(number)) [[unlikely]] {
       start_counts(number);
     }
   }
-  /// Adds the counts of tiles to those of their pixels, up to the largest value.
-  void put_counts(TiledImage<std::uint16_t>& fragments, TiledImage<std::uint16_t>& survivors) const;
+  [[nodiscard]] bool is_counted(std::uint32_t number) const { return counted[number] == frame; }
   /// A frame begins: nothing is counted.
   void begin_frame();
 
@@ -127,9 +127,11 @@ struct SurfaceTiles {
   LazyArray<std::int32_t> z_max;
   LazyArray<std::uint32_t> plane;  ///< its number, or kResolved
   std::uint8_t epoch = 0;          ///< counts clears
-  // Of pixels, what is the same for all of a tile; clears leave it.
+  // Of pixels, what is the same for all of a tile, and the rest; clears leave it.
   LazyArray<std::int32_t> whole_fragments;
   LazyArray<std::int32_t> whole_survivors;
+  PixelCounts fragments;
+  PixelCounts survivors;
   LazyArray<std::uint8_t> counted;  ///< by block: the frame in which it was
   std::uint8_t frame = 1;           ///< counts frames
   std::int32_t cleared_to = 0;      ///< what blocks are that are neither bounded nor open

@@ -378,8 +378,8 @@ class Walk {
         prefetch(surface_->codes.tile(first_x + column, first_y + row), mask);
       }
       if (counts_pixels_) {
-        prefetch(surface_->fragments.tile(first_x + column, first_y + row), mask);
-        prefetch(surface_->survivors.tile(first_x + column, first_y + row), mask);
+        prefetch_counts(tiles_->block(visit.block_x, visit.block_y) * tiles_->entries + visit.group * kLanes +
+                        i);
       }
     }
     counters_.edge_evaluator.tiles_empty +=
@@ -498,6 +498,13 @@ class Walk {
     hwy::Prefetch(tile + first * kLineSamples);
     for (int line = first + 1; line <= last; ++line) {
       hwy::Prefetch(tile + line * kLineSamples);
+    }
+  }
+
+  void prefetch_counts(std::size_t tile) {
+    for (const PixelCounts* counts : {&tiles_->fragments, &tiles_->survivors}) {
+      hwy::Prefetch(counts->first_word(tile));
+      hwy::Prefetch(counts->second_word(tile));
     }
   }
 
