@@ -18,26 +18,13 @@
 #include "halfspace/fast/raster.hpp"
 #include "halfspace/fast/tallies.hpp"
 #include "halfspace/fast/triangle-inl.hpp"
+#include "halfspace/fast/visit-inl.hpp"
 #include "halfspace/machine/passage/packet_sums.hpp"
 #include "halfspace/units/quad_generator.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
-
-/// A triangle in a group of tiles: those that it covers whole, and those of which it covers a part. Or in
-/// blocks of a row that it covers whole.
-struct Visit {
-  Triangle* triangle;
-  std::uint32_t block_x;
-  std::uint32_t block_y;
-  std::uint32_t blocks;  ///< covered whole, a bit each from block_x on; 0: the visit is of tiles, as follows
-  std::uint32_t group;   ///< of the block
-  std::uint16_t whole;   ///< a bit a tile
-  std::uint16_t partial;
-  std::uint32_t first_mask;  ///< of the partial ones
-  CodeRange range;           ///< where the triangle has depth
-};
 
 /// Tile walker, edge evaluator and quad generator: turns triangles into visits, and tells the stream of the
 /// jobs. early_z takes the visits later, when what they need has come from memory.
