@@ -61,8 +61,12 @@ void put_surface_counts(const SurfaceTiles& tiles, Surface& surface) {
   }
 }
 
-inline void put_counts_4(const SurfaceTiles& tiles, Surface& surface) { put_surface_counts<4>(tiles, surface); }
-inline void put_counts_8(const SurfaceTiles& tiles, Surface& surface) { put_surface_counts<8>(tiles, surface); }
+inline void put_counts_4(const SurfaceTiles& tiles, Surface& surface) {
+  put_surface_counts<4>(tiles, surface);
+}
+inline void put_counts_8(const SurfaceTiles& tiles, Surface& surface) {
+  put_surface_counts<8>(tiles, surface);
+}
 
 }  // namespace
 }  // namespace halfspace::fast::HWY_NAMESPACE

@@ -17,10 +17,14 @@ class PixelCounts {
 
   PixelCounts() = default;
   explicit PixelCounts(std::size_t tiles)
-      : tiles_(tiles), words_(unset_array<std::uint64_t>(tiles * kBits)), used_(unset_array<std::uint8_t>(tiles)) {}
+      : tiles_(tiles),
+        words_(unset_array<std::uint64_t>(tiles * kBits)),
+        used_(unset_array<std::uint8_t>(tiles)) {}
 
   /// Nothing has been counted in `count` tiles from `first` on.
-  void start(std::size_t first, std::size_t count) { std::fill_n(used_.get() + first, count, std::uint8_t{0}); }
+  void start(std::size_t first, std::size_t count) {
+    std::fill_n(used_.get() + first, count, std::uint8_t{0});
+  }
 
   /// Adds 1 to the pixels of a tile that are in `mask`.
   void add(std::size_t tile, std::uint64_t mask) {
@@ -40,10 +44,14 @@ class PixelCounts {
   /// Bits that counts of the tile have.
   [[nodiscard]] std::size_t used(std::size_t tile) const { return used_[tile]; }
   /// Bit `k` of them, a bit a pixel.
-  [[nodiscard]] std::uint64_t word(std::size_t tile, std::size_t k) const { return words_[k * tiles_ + tile]; }
+  [[nodiscard]] std::uint64_t word(std::size_t tile, std::size_t k) const {
+    return words_[k * tiles_ + tile];
+  }
   /// What add() touches first.
   [[nodiscard]] const std::uint64_t* first_word(std::size_t tile) const { return words_.get() + tile; }
-  [[nodiscard]] const std::uint64_t* second_word(std::size_t tile) const { return words_.get() + tiles_ + tile; }
+  [[nodiscard]] const std::uint64_t* second_word(std::size_t tile) const {
+    return words_.get() + tiles_ + tile;
+  }
 
  private:
   /// Counts are about to have another bit; those that have all stay at the largest number.
@@ -61,7 +69,7 @@ class PixelCounts {
 
   std::size_t tiles_ = 0;
   LazyArray<std::uint64_t> words_;  ///< bit by bit, in each by tile
-  LazyArray<std::uint8_t> used_;    ///< by tile: bits that its counts have; the words of the others are not set
+  LazyArray<std::uint8_t> used_;  ///< by tile: bits that its counts have; the words of the others are not set
 };
 
 }  // namespace halfspace::fast
