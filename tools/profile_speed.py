@@ -12,6 +12,7 @@ import argparse
 import collections
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -102,6 +103,9 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("inputs", nargs="*", metavar="INPUT", help="in addition to the ten synthetic lists")
     options = parser.parse_args()
+    for tool, package in (("perf", "linux-perf"), ("addr2line", "binutils")):
+        if shutil.which(tool) is None:
+            parser.error(f"{tool}: not found (Debian: {package})")
     print(f"| workload | ms | {' | '.join(STAGES)} |")
     print("|---|---:|" + "---:|" * len(STAGES))
     for workload in [*(f"synthetic:{name}:full" for name in LISTS), *options.inputs]:

@@ -39,6 +39,25 @@ TEST_CASE("bench speed: synthetic frames have the depth format that is asked for
               {"--depth", "unorm16", "unorm24,float32"});
 }
 
+TEST_CASE("bench speed: contenders are left out, and a wrong one is refused") {
+  const Place place;
+  const Outcome alone = place.run("bench speed --repeat 1 --without functional_pixels,scalar_loop,llvmpipe " +
+                                  scene("vkcube.ptf.xz"));
+  CHECK(alone.status == 0);
+  CHECK(alone.out.find("scalar loop is left out: by --without") != std::string::npos);
+  CHECK(alone.out.find("| vkcube | unorm16 | 12 | 74783 | 74783 |") != std::string::npos);
+  CHECK(alone.out.find("scalar loop / functional") == std::string::npos);
+  check_error(place.run("bench speed --without functional"), {"--without", "functional", "scalar_loop"});
+}
+
+TEST_CASE("bench roof: a row for each place of the depth codes") {
+  const Place place;
+  const Outcome outcome = place.run("bench roof --repeat 1");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.find("| a surface of 1920x1080 | 7.91 | ") != std::string::npos);
+  check_error(place.run("bench roof --repeat 0"), {"--repeat", "1 to 1000"});
+}
+
 TEST_CASE("bench speed: a bad name, or a file that cannot be written, is known before anything is measured") {
   const Place place;
   check_error(place.run("bench speed synthetic:sliver:full synthetic:mid"),

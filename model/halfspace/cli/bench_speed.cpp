@@ -238,6 +238,7 @@ void add_bench_speed(CLI::App& bench) {
   speed->add_option("--without", options->without, "leave contenders out")
       ->check(CLI::IsMember({"functional_pixels", "scalar_loop", "llvmpipe"}))
       ->delimiter(',')
+      ->allow_extra_args(false)  // what follows is INPUT
       ->type_name("NAME,...");
   speed->add_option("--json", options->json, "write the table and every pass's time as JSON too")
       ->type_name("FILE");
