@@ -19,7 +19,7 @@ class PixelCounts {
   explicit PixelCounts(std::size_t tiles)
       : tiles_(tiles),
         words_(unset_array<std::uint64_t>(tiles * kBits)),
-        used_(unset_array<std::uint8_t>(tiles)) {}
+        used_(unset_array<std::uint8_t>(tiles, Pages::kSmall)) {}
 
   /// Nothing has been counted in `count` tiles from `first` on.
   void start(std::size_t first, std::size_t count) {

@@ -13,9 +13,9 @@ constexpr std::size_t kMostInLargePages = std::size_t{32} << 20;
 
 // Not by aligned_alloc: glibc's does not use again what it gave before, so each run would pay for fresh
 // pages.
-Reserved reserve(std::size_t bytes) {
+Reserved reserve(std::size_t bytes, Pages pages) {
   const std::size_t rounded = (bytes + kLargePage - 1) / kLargePage * kLargePage;
-  if (bytes < kLargePage || rounded > kMostInLargePages) {
+  if (pages == Pages::kSmall || bytes < kLargePage || rounded > kMostInLargePages) {
     return {.memory = std::malloc(bytes + kCacheLine), .alignment = kCacheLine};
   }
   void* const memory = std::malloc(rounded + kLargePage);

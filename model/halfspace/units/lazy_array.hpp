@@ -20,6 +20,8 @@ struct FreeMemory {
 template <class Value>
 using LazyArray = std::unique_ptr<Value[], FreeMemory>;
 
+enum class Pages { kSmall, kLargeIfItFits };
+
 namespace detail {
 
 /// Memory, or null, with room for an array from its first multiple of `alignment` on.
@@ -33,9 +35,9 @@ inline void* first_multiple(void* memory, std::size_t alignment) {
   return static_cast<char*>(memory) + (past == 0 ? 0 : alignment - past);
 }
 
-/// Asks for large pages where the array is one or more of them, and not so large that their unused rest
+/// Large pages are asked for where the array is one or more of them, and not so large that their unused rest
 /// would matter.
-Reserved reserve(std::size_t bytes);
+Reserved reserve(std::size_t bytes, Pages pages);
 
 /// The array in `memory`, from its first multiple of `alignment` on.
 template <class Value>
@@ -55,10 +57,11 @@ LazyArray<Value> zeroed_array(std::size_t count) {
   return detail::array_in<Value>(std::calloc(count == 0 ? 1 : count, sizeof(Value)), alignof(Value));
 }
 
-/// `count` values that must be written before they are read, from the begin of a cache line on.
+/// `count` values that must be written before they are read, from the begin of a cache line on. Small pages
+/// are for lists of which little may be used.
 template <class Value>
-LazyArray<Value> unset_array(std::size_t count) {
-  const detail::Reserved reserved = detail::reserve(count * sizeof(Value));
+LazyArray<Value> unset_array(std::size_t count, Pages pages = Pages::kLargeIfItFits) {
+  const detail::Reserved reserved = detail::reserve(count * sizeof(Value), pages);
   return detail::array_in<Value>(reserved.memory, reserved.alignment);
 }
 
