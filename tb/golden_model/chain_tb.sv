@@ -35,6 +35,8 @@ module chain_tb;
   setup_link_t    set_up;
   logic           slot_valid;
   slot_link_t     slot;
+  logic           block_valid, block_ready;
+  block_job_t     block;
   logic           job_valid, job_ready;
   tile_job_t      job;
   logic           coverage_valid, coverage_ready;
@@ -58,7 +60,7 @@ module chain_tb;
     .state_o          (set_up.state)
   );
 
-  tile_walker u_tile_walker (
+  block_walker u_block_walker (
     .clk_i            (clk),
     .rst_ni           (rst_n),
     .triangle_valid_i (set_up_valid),
@@ -70,9 +72,20 @@ module chain_tb;
     .slot_o           (slot.slot),
     .slot_equation_o  (slot.equation),
     .slot_state_o     (slot.state),
-    .job_valid_o      (job_valid),
-    .job_ready_i      (job_ready),
-    .job_o            (job)
+    .block_valid_o    (block_valid),
+    .block_ready_i    (block_ready),
+    .block_o          (block)
+  );
+
+  tile_walker u_tile_walker (
+    .clk_i         (clk),
+    .rst_ni        (rst_n),
+    .block_valid_i (block_valid),
+    .block_ready_o (block_ready),
+    .block_i       (block),
+    .job_valid_o   (job_valid),
+    .job_ready_i   (job_ready),
+    .job_o         (job)
   );
 
   edge_evaluator u_edge_evaluator (
@@ -176,6 +189,9 @@ module chain_tb;
       if (slot_valid) begin
         board.check(LinkSlot, wire_packet_t'(slot), $bits(slot));
       end
+      if (block_valid && block_ready) begin
+        board.check(LinkBlockJob, wire_packet_t'(block), $bits(block));
+      end
       if (job_valid && job_ready) begin
         board.check(LinkTileJob, wire_packet_t'(job), $bits(job));
       end
@@ -191,7 +207,8 @@ module chain_tb;
   initial forever #5 clk = !clk;
 
   logic moving;
-  assign moving = triangle_valid || set_up_valid || job_valid || coverage_valid || beat_valid;
+  assign moving = triangle_valid || set_up_valid || block_valid || job_valid || coverage_valid ||
+                  beat_valid;
 
   int unsigned seed, quiet;
 
@@ -200,6 +217,7 @@ module chain_tb;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
     void'($urandom(seed));
     board = new();
+    board.set($sformatf("block_walker.block_size=%0d", BlockSize));
     board.set($sformatf("tile_walker.tile_size=%0d", TileSize));
     board.set($sformatf("raster.sub_pixel_bits=%0d", SubPixelBits));
     board.set($sformatf("quad_generator.quads_per_cycle=%0d", QuadWidth));
@@ -207,6 +225,7 @@ module chain_tb;
     board.set($sformatf("z_cache.parts=%0d", ZParts));
     board.watch(LinkSetupTriangle, $bits(setup_link_t));
     board.watch(LinkSlot, $bits(slot_link_t));
+    board.watch(LinkBlockJob, $bits(block_job_t));
     board.watch(LinkTileJob, $bits(tile_job_t));
     board.watch(LinkCoverage, $bits(coverage_t));
     board.watch(LinkQuadBeat, $bits(quad_beat_t));

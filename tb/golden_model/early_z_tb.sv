@@ -237,6 +237,7 @@ module early_z_tb;
     if ($value$plusargs("seed=%d", seed) == 0) seed = 1;
     void'($urandom(seed));
     board = new();
+    board.set($sformatf("block_walker.block_size=%0d", BlockSize));
     board.set($sformatf("tile_walker.tile_size=%0d", TileSize));
     board.set($sformatf("raster.sub_pixel_bits=%0d", SubPixelBits));
     board.set($sformatf("quad_generator.quads_per_cycle=%0d", QuadWidth));

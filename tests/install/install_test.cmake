@@ -40,5 +40,16 @@ foreach(library halfspace_c halfspace_c_static)
     message(FATAL_ERROR "with_${library} printed: ${output}")
   endif()
 endforeach()
-run(${CMAKE_COMMAND} -E cat ${WORK}/prefix/share/halfspace/halfspace_dpi.sv)
+
+# The header, the library and the SystemVerilog package speak of one ABI.
+file(STRINGS ${WORK}/prefix/include/halfspace.h abi_version REGEX "^#define HALFSPACE_ABI_VERSION ")
+string(REGEX REPLACE "[^0-9]" "" abi_version "${abi_version}")
+file(GLOB_RECURSE library ${WORK}/prefix/libhalfspace_c.so.${abi_version})
+if(NOT library)
+  message(FATAL_ERROR "no libhalfspace_c.so.${abi_version}, the ABI version of halfspace.h, is installed")
+endif()
+file(READ ${WORK}/prefix/share/halfspace/halfspace_dpi.sv dpi)
+if(NOT dpi MATCHES "AbiVersion = ${abi_version};")
+  message(FATAL_ERROR "halfspace_dpi.sv is not of ABI version ${abi_version}")
+endif()
 

@@ -16,6 +16,7 @@
 
 #include "../triangles.hpp"
 #include "halfspace/config/config.hpp"
+#include "halfspace/units/block_walker.hpp"
 #include "halfspace/units/edge_evaluator.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packing.hpp"
@@ -37,11 +38,13 @@ using Model = std::unique_ptr<halfspace_model, Destroy>;
 /// A machine, as both sides are told it.
 struct Machine {
   Widths widths;
-  bool block_level = true;
+  bool trivial_reject = true;
   DepthInterpolator interpolator = DepthInterpolator::kBarycentric;
 
   [[nodiscard]] WalkerConfig walker() const {
-    return {.sub_pixel_bits = widths.SubPixelBits, .block_size = 32, .block_level = block_level};
+    return {.sub_pixel_bits = widths.SubPixelBits,
+            .block_size = widths.BlockSize,
+            .trivial_reject = trivial_reject};
   }
 };
 
@@ -49,8 +52,13 @@ const std::array<Machine, 4> kMachines = {
     Machine{Widths{}, true},
     Machine{Widths{.SubPixelBits = 4, .TileSize = 4, .QuadWidth = 2, .TestWidth = 1, .ZParts = 2}, true,
             DepthInterpolator::kPlane},
-    Machine{Widths{.SubPixelBits = 6, .TileSize = 16, .QuadWidth = 16, .TestWidth = 16, .ZParts = 4}, false,
-            DepthInterpolator::kPlane},
+    Machine{Widths{.SubPixelBits = 6,
+                   .BlockSize = 64,
+                   .TileSize = 16,
+                   .QuadWidth = 16,
+                   .TestWidth = 16,
+                   .ZParts = 4},
+            false, DepthInterpolator::kPlane},
     Machine{Widths{.SubPixelBits = 8, .TileSize = 16, .QuadWidth = 8, .TestWidth = 4}, true}};
 
 inline Model make_model(const Machine& machine, std::initializer_list<int> links) {
@@ -58,10 +66,11 @@ inline Model make_model(const Machine& machine, std::initializer_list<int> links
   const Widths& w = machine.widths;
   for (const std::string& setting :
        {fmt::format("raster.sub_pixel_bits={}", w.SubPixelBits),
+        fmt::format("block_walker.block_size={}", w.BlockSize),
         fmt::format("tile_walker.tile_size={}", w.TileSize),
         fmt::format("quad_generator.quads_per_cycle={}", w.QuadWidth),
         fmt::format("early_z.quads_per_cycle={}", w.TestWidth), fmt::format("z_cache.parts={}", w.ZParts),
-        fmt::format("tile_walker.block_level={}", machine.block_level),
+        fmt::format("block_walker.trivial_reject={}", machine.trivial_reject),
         fmt::format("depth.interpolator={}",
                     machine.interpolator == DepthInterpolator::kPlane ? "plane" : "barycentric")}) {
     REQUIRE(halfspace_set(model.get(), setting.c_str()) == HALFSPACE_OK);
@@ -144,16 +153,22 @@ class Reference {
     }
     const DepthEquationPacket equation = to_packet(triangle_, state.depth_format, state.interpolator);
     packets[HALFSPACE_SETUP_TRIANGLE].push_back(
-        join(widths, to_packet(triangle_, machine_.walker(), TileSize), equation, draw));
+        join(widths, to_packet(triangle_, machine_.walker()), equation, draw));
     packets[HALFSPACE_SLOT].push_back(join(widths, SlotNumber{slot_}, equation, draw));
     emitted_ = false;
-    tile_walker<TileSize>(triangle_, machine_.walker(), slot_, *this);
+    block_walker<TileSize>(triangle_, machine_.walker(), slot_, *this);
     slot_ = static_cast<std::uint8_t>(slot_ + (emitted_ ? 1 : 0));
   }
 
-  void decision(int, int, int, TileVerdict) {}
-  void tile(const TileJob& job, TileWork) {
+  void block(const BlockJob& job, std::uint64_t /*touched*/) {
+    if (job.tiles == 0) {
+      return;
+    }
     emitted_ = true;
+    packets[HALFSPACE_BLOCK_JOB].push_back(join(machine_.widths, job));
+    tile_walker<TileSize>(job, machine_.walker(), *this);
+  }
+  void tile(const TileJob& job, bool /*whole*/) {
     packets[HALFSPACE_TILE_JOB].push_back(join(machine_.widths, job));
     const Coverage coverage = edge_evaluator<TileSize>(job, machine_.widths.SubPixelBits);
     packets[HALFSPACE_COVERAGE].push_back(join(machine_.widths, coverage));

@@ -48,8 +48,9 @@ struct Refusals {
   const Machine& machine = kMachines[0];
   const Widths& widths = machine.widths;
   const DepthFormat format = DepthFormat::kUnorm24;
-  const Model model = make_model(machine, {HALFSPACE_SETUP_TRIANGLE, HALFSPACE_SLOT, HALFSPACE_TILE_JOB,
-                                           HALFSPACE_COVERAGE, HALFSPACE_QUAD_BEAT, HALFSPACE_TESTED_BEAT});
+  const Model model =
+      make_model(machine, {HALFSPACE_SETUP_TRIANGLE, HALFSPACE_SLOT, HALFSPACE_BLOCK_JOB, HALFSPACE_TILE_JOB,
+                           HALFSPACE_COVERAGE, HALFSPACE_QUAD_BEAT, HALFSPACE_TESTED_BEAT});
   Reference<8> reference;
   // Places of the structs in a setup triangle's words.
   const int equation_lsb = packed_bits<DrawStatePacket>(widths);
@@ -74,10 +75,10 @@ TEST_CASE("c_api: an illegal configuration is refused with what is legal") {
   CHECK_THAT(error(model), Catch::Contains("no/such/file.toml"));
   // What only fits together is checked when the configuration is first used; until it fits, it can be
   // changed.
-  REQUIRE(halfspace_set(model.get(), "tile_walker.block_size=8") == HALFSPACE_OK);
+  REQUIRE(halfspace_set(model.get(), "block_walker.block_size=8") == HALFSPACE_OK);
   CHECK(halfspace_packet_bits(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_REFUSED);
-  CHECK_THAT(error(model), Catch::Contains("'tile_walker.block_size' is 8"));
-  REQUIRE(halfspace_set(model.get(), "tile_walker.block_size=16") == HALFSPACE_OK);
+  CHECK_THAT(error(model), Catch::Contains("'block_walker.block_size' is 8"));
+  REQUIRE(halfspace_set(model.get(), "block_walker.block_size=16") == HALFSPACE_OK);
   CHECK(halfspace_watch(model.get(), HALFSPACE_COVERAGE) == HALFSPACE_OK);
   CHECK(error(model).empty());
 }
@@ -119,14 +120,14 @@ TEST_CASE("c_api: null pointers, wrong links and wrong sizes are refused") {
   for (const int size : {bits - 1, bits + 1, 0, -1}) {
     CHECK(halfspace_put(model.get(), HALFSPACE_TILE_JOB, words, size) == HALFSPACE_REFUSED);
     CHECK_THAT(error(model), Catch::Contains(fmt::format(
-                                 "a packet of {} bits on link 3 (tile_job); legal: {}", size, bits)));
+                                 "a packet of {} bits on link 4 (tile_job); legal: {}", size, bits)));
   }
   CHECK(halfspace_get(model.get(), HALFSPACE_COVERAGE, words, bits) == HALFSPACE_REFUSED);
   CHECK(halfspace_check(model.get(), HALFSPACE_COVERAGE, words, bits) == HALFSPACE_REFUSED);
   for (const int link :
        {-1, static_cast<int>(HALFSPACE_TESTED_BEAT), static_cast<int>(HALFSPACE_LINKS), 1 << 20}) {
     CHECK(halfspace_put(model.get(), link, words, bits) == HALFSPACE_REFUSED);
-    CHECK_THAT(error(model), Catch::Contains("legal: 0 (triangle) to 5 (quad_beat)"));
+    CHECK_THAT(error(model), Catch::Contains("legal: 0 (triangle) to 6 (quad_beat)"));
   }
   for (const int link : {-1, static_cast<int>(HALFSPACE_TRIANGLE), static_cast<int>(HALFSPACE_LINKS)}) {
     CHECK(halfspace_watch(model.get(), link) == HALFSPACE_REFUSED);
@@ -135,7 +136,7 @@ TEST_CASE("c_api: null pointers, wrong links and wrong sizes are refused") {
   }
   CHECK(halfspace_packet_bits(model.get(), HALFSPACE_LINKS) == HALFSPACE_REFUSED);
   CHECK(halfspace_pending(model.get(), HALFSPACE_QUAD_BEAT) == HALFSPACE_REFUSED);
-  CHECK_THAT(error(model), Catch::Contains("link 5 (quad_beat) is not watched"));
+  CHECK_THAT(error(model), Catch::Contains("link 6 (quad_beat) is not watched"));
   REQUIRE(put(model, HALFSPACE_TILE_JOB, join(machine.widths, some_job())) == HALFSPACE_OK);
   CHECK(halfspace_watch(model.get(), HALFSPACE_QUAD_BEAT) == HALFSPACE_REFUSED);
   CHECK_THAT(error(model), Catch::Contains("before the first packet"));
@@ -238,14 +239,83 @@ TEST_CASE_METHOD(Refusals, "c_api: so are triangles that setup does not make") {
                  "equation.z[0] is 140737488355327; legal: -");
 }
 
-TEST_CASE_METHOD(Refusals, "c_api: so are slots and tile jobs that tile_walker does not make") {
+TEST_CASE_METHOD(Refusals, "c_api: so are slots and block jobs that block_walker does not make") {
   const Words slot = reference.packets.at(HALFSPACE_SLOT).at(0);
-  const Words job = reference.packets.at(HALFSPACE_TILE_JOB).at(0);
-  refused(HALFSPACE_TILE_JOB, job, "slot is 0; legal: one that was put on link 2 (slot) before");
+  const std::vector<Words>& jobs = reference.packets.at(HALFSPACE_BLOCK_JOB);
+  // The block at (32, 32), whose upper left is inside the triangle.
+  const auto found = std::ranges::find_if(jobs, [&](const Words& words) {
+    const auto job = unpack<BlockJob>(words, widths);
+    return job.block_x == 1 && job.block_y == 1;
+  });
+  REQUIRE(found != jobs.end());
+  const Words& job = *found;
+  const std::vector<FieldSlot> job_fields = field_slots<BlockJob>(widths);
+  const auto refused_job = [&](const char* name, std::uint64_t value, const std::string& why) {
+    refused(HALFSPACE_BLOCK_JOB, change(job, 0, job_fields, name, value), why);
+  };
+  refused(HALFSPACE_BLOCK_JOB, job, "slot is 0; legal: one that was put on link 2 (slot) before");
   refused(HALFSPACE_SLOT, change(slot, equation_lsb, equation_fields, "shift", 31), "equation.shift is 31");
   REQUIRE(put(model, HALFSPACE_SLOT, slot) == HALFSPACE_OK);
 
+  // What tile_walker demands. A block has 4 by 4 tiles.
+  const auto refused_order = [&](const char* first, const char* last) {
+    const Words moved = change(job, 0, job_fields, first, 7);
+    refused(HALFSPACE_BLOCK_JOB, change(moved, 0, job_fields, last, 6),
+            fmt::format("{} is 6; legal: at least {} (7)", last, first));
+  };
+  refused_order("x_first", "x_last");
+  refused_order("y_first", "y_last");
+  refused_job("tiles", 0, "tiles is 0; legal: a tile or more");
+  const auto refused_tiles = [&](const char* bound, std::uint64_t pixel, std::uint64_t tiles,
+                                 const std::string& why) {
+    const Words tighter = change(job, 0, job_fields, bound, pixel);
+    refused(HALFSPACE_BLOCK_JOB, change(tighter, 0, job_fields, "tiles", tiles), why);
+  };
+  refused_tiles(
+      "x_first", 8, 0x21,
+      "tiles is 0x21, with tile (0, 0) of the block; legal: (1, 0) to (3, 3), which the bounds touch");
+  refused_tiles("x_last", 23, 0x8001,
+                "tiles is 0x8001, with tile (3, 3) of the block; legal: (0, 0) to (2, 3), which");
+  refused_tiles("y_first", 16, 0x120,
+                "tiles is 0x120, with tile (1, 1) of the block; legal: (0, 2) to (3, 3), which");
+  refused_tiles("y_last", 7, 0x11,
+                "tiles is 0x11, with tile (0, 1) of the block; legal: (0, 0) to (3, 0), which");
+  refused_job("e[1]", (std::uint64_t{1} << 50) - 1, "e[1] is 1125899906842623, so E is ");
+  refused_job("e[2]", std::uint64_t{1} << 50, "e[2] is -1125899906842624, so E is ");
+
+  // What early_z demands.
+  refused_job("slot", 1, "slot is 1; legal: one that was put on link 2 (slot) before");
+  refused_job("block_x", 6,
+              "pixel (223, 63) is outside the depth surface at tile 77; legal: (0, 0) to (199, ");
+  refused_job("block_x", 511, "pixel (16383, 63) is outside the depth surface");
+  refused_job("block_y", 511, "pixel (63, 16383) is outside the depth surface");
+  refused_job("a[0]", 1, "a[0] is 1; legal:");
+  refused_job("a[1]", 1, "a[1] is 1; legal:");
+  refused_job("a[2]", 1, "a[2] is 1; legal:");
+  refused_job("b[0]", 1, "b[0] is 1; legal:");
+  refused_job("b[1]", 1, "b[1] is 1; legal:");
+  refused_job("b[2]", 1, "b[2] is 1; legal:");
+  refused_job("e[0]", 12345, "the sum of e and bias of the slot is");
+  bool untouched = true;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      std::uint32_t code = 0;
+      untouched = untouched && halfspace_read_depth(model.get(), kFirstTile, x, y, &code) == HALFSPACE_OK &&
+                  code == largest_code(format);
+    }
+  }
+  CHECK(untouched);
+  // After all that the right one is taken, and gives what it should.
+  REQUIRE(put(model, HALFSPACE_BLOCK_JOB, job) == HALFSPACE_OK);
+  CHECK_FALSE(take(model, HALFSPACE_TESTED_BEAT).empty());
+}
+
+TEST_CASE_METHOD(Refusals, "c_api: so are tile jobs that tile_walker does not make") {
+  REQUIRE(put(model, HALFSPACE_SLOT, reference.packets.at(HALFSPACE_SLOT).at(0)) == HALFSPACE_OK);
+  const Words job = reference.packets.at(HALFSPACE_TILE_JOB).at(0);
   const std::vector<FieldSlot> job_fields = field_slots<TileJob>(widths);
+  refused(HALFSPACE_TILE_JOB, change(job, 0, job_fields, "slot", 7),
+          "slot is 7; legal: one that was put on link 2 (slot) before");
   refused(HALFSPACE_TILE_JOB, change(job, 0, job_fields, "tile_x", 25),
           "pixel (200, 0) is outside the depth surface");
   refused(HALFSPACE_TILE_JOB, change(job, 0, job_fields, "e[1]", std::uint64_t{1} << 49),
@@ -296,6 +366,26 @@ TEST_CASE_METHOD(Refusals, "c_api: so are beats that quad_generator does not mak
     REQUIRE(put(model, HALFSPACE_QUAD_BEAT, join(widths, endless)) == HALFSPACE_OK);
   }
   refused(HALFSPACE_QUAD_BEAT, join(widths, endless), "last is 0 in beat 4 of a burst; legal: 1");
+}
+
+TEST_CASE("c_api: what early_z demands of a block job is no matter where early_z does not work") {
+  const Machine& machine = kMachines[0];
+  const Model model = make_model(machine, {HALFSPACE_TILE_JOB});
+  BlockJob job{.slot = 9, .block_x = 511, .block_y = 511, .x_first = 8, .x_last = 8, .tiles = 2};
+  job.e = {-1000, 5000, 1 << 20};
+  job.a = {300, -40, 7};
+  REQUIRE(put(model, HALFSPACE_BLOCK_JOB, join(machine.widths, job)) == HALFSPACE_OK);
+  const std::vector<Words> jobs = take(model, HALFSPACE_TILE_JOB);
+  REQUIRE(jobs.size() == 1);
+  const auto got = unpack<TileJob>(jobs[0], machine.widths);
+  CHECK(got.slot == 9);
+  CHECK(got.tile_x == 2045);
+  CHECK(got.tile_y == 2044);
+  CHECK(got.e ==
+        std::array<std::int64_t, 3>{-1000 + 8 * 256 * 300, 5000 - 8 * 256 * 40, (1 << 20) + 8 * 256 * 7});
+  job.tiles = 1;
+  CHECK(put(model, HALFSPACE_BLOCK_JOB, join(machine.widths, job)) == HALFSPACE_REFUSED);
+  CHECK(halfspace_pending(model.get(), HALFSPACE_TILE_JOB) == 0);
 }
 
 TEST_CASE("c_api: no pattern of bits on any link does harm") {

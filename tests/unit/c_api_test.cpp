@@ -101,6 +101,9 @@ void check_late_start(const Machine& machine, DepthFormat format) {
     }
     reference.triangle(triangle, draw);
   }
+  for (int to = HALFSPACE_TILE_JOB; to < HALFSPACE_LINKS; ++to) {
+    check_from(machine, reference, format, HALFSPACE_BLOCK_JOB, to);
+  }
   check_from(machine, reference, format, HALFSPACE_TILE_JOB, HALFSPACE_COVERAGE);
   check_from(machine, reference, format, HALFSPACE_TILE_JOB, HALFSPACE_TESTED_BEAT);
   check_from(machine, reference, format, HALFSPACE_COVERAGE, HALFSPACE_QUAD_BEAT);
@@ -121,30 +124,33 @@ void for_each_machine(Check&& check) {
 }  // namespace
 
 TEST_CASE("c_api: packets have the sizes of the packed structs, and fit the words that are promised") {
-  for (const int tile_size : {4, 8, 16}) {
-    for (const int width : {1, 2, 4, 8, 16}) {
-      for (const int bits : {4, 8}) {
-        if (width > tile_size * tile_size / 4) {
-          continue;
-        }
-        const Widths w{
-            .SubPixelBits = bits, .TileSize = tile_size, .QuadWidth = width, .TestWidth = width, .ZParts = 2};
-        const Model model = make_model({w, true}, {});
-        const std::array<int, HALFSPACE_LINKS> want = {
-            packed_bits<ScreenTrianglePacket>(w) + packed_bits<DrawStatePacket>(w),
-            packed_bits<SetupTrianglePacket>(w) + packed_bits<DepthEquationPacket>(w) +
-                packed_bits<DrawStatePacket>(w),
-            8 + packed_bits<DepthEquationPacket>(w) + packed_bits<DrawStatePacket>(w),
-            packed_bits<TileJob>(w),
-            packed_bits<Coverage>(w),
-            packed_bits<QuadBeat>(w),
-            packed_bits<TestedBeat>(w)};
-        for (int link = 0; link < HALFSPACE_LINKS; ++link) {
-          CHECK(halfspace_packet_bits(model.get(), link) == want[static_cast<std::size_t>(link)]);
-          CHECK(want[static_cast<std::size_t>(link)] <= 32 * HALFSPACE_MAX_PACKET_WORDS);
-        }
-      }
-    }
+  const int tile_size = GENERATE(4, 8, 16);
+  const int row_tiles = GENERATE(2, 4, 8);
+  const int width = GENERATE(1, 2, 4, 8, 16);
+  const int bits = GENERATE(4, 8);
+  if (width > tile_size * tile_size / 4 || tile_size * row_tiles > 64) {
+    return;
+  }
+  const Widths w{.SubPixelBits = bits,
+                 .BlockSize = tile_size * row_tiles,
+                 .TileSize = tile_size,
+                 .QuadWidth = width,
+                 .TestWidth = width,
+                 .ZParts = 2};
+  const Model model = make_model({w, true}, {});
+  const std::array<int, HALFSPACE_LINKS> want = {
+      packed_bits<ScreenTrianglePacket>(w) + packed_bits<DrawStatePacket>(w),
+      packed_bits<SetupTrianglePacket>(w) + packed_bits<DepthEquationPacket>(w) +
+          packed_bits<DrawStatePacket>(w),
+      8 + packed_bits<DepthEquationPacket>(w) + packed_bits<DrawStatePacket>(w),
+      packed_bits<BlockJob>(w),
+      packed_bits<TileJob>(w),
+      packed_bits<Coverage>(w),
+      packed_bits<QuadBeat>(w),
+      packed_bits<TestedBeat>(w)};
+  for (int link = 0; link < HALFSPACE_LINKS; ++link) {
+    CHECK(halfspace_packet_bits(model.get(), link) == want[static_cast<std::size_t>(link)]);
+    CHECK(want[static_cast<std::size_t>(link)] <= 32 * HALFSPACE_MAX_PACKET_WORDS);
   }
 }
 

@@ -54,9 +54,8 @@ ChainContext& GoldenModel::context() {
   context->widths = widths(config_);
   context->interpolator = config_.depth.interpolator;
   context->walker = {.sub_pixel_bits = config_.raster.sub_pixel_bits,
-                     .block_size = config_.tile_walker.block_size,
-                     .block_level = config_.tile_walker.block_level,
-                     .trivial_reject = config_.tile_walker.trivial_reject,
+                     .block_size = config_.block_walker.block_size,
+                     .trivial_reject = config_.block_walker.trivial_reject,
                      .trivial_accept = config_.tile_walker.trivial_accept};
   for (int link = 0; link < HALFSPACE_LINKS; ++link) {
     context->expected.emplace_back(words_for(link_bits(static_cast<LinkId>(link), context->widths)));

@@ -31,7 +31,7 @@ extern "C" {
 #define HALFSPACE_API
 #endif
 
-#define HALFSPACE_ABI_VERSION 1
+#define HALFSPACE_ABI_VERSION 2
 
 /** Words that hold any packet of any configuration. */
 #define HALFSPACE_MAX_PACKET_WORDS 80
@@ -52,14 +52,16 @@ enum {
  */
 enum {
   HALFSPACE_TRIANGLE = 0,       /**< into setup: screen_triangle_t, draw_state_t */
-  HALFSPACE_SETUP_TRIANGLE = 1, /**< setup -> tile_walker: setup_triangle_t, depth_equation_t, draw_state_t */
-  HALFSPACE_SLOT = 2,           /**< tile_walker -> early_z, before the triangle's first beat: slot (8 bits),
+  HALFSPACE_SETUP_TRIANGLE = 1, /**< setup -> block_walker: setup_triangle_t, depth_equation_t, draw_state_t
+                                 */
+  HALFSPACE_SLOT = 2,           /**< block_walker -> early_z, before the triangle's first beat: slot (8 bits),
                                      depth_equation_t, draw_state_t */
-  HALFSPACE_TILE_JOB = 3,       /**< tile_walker -> edge_evaluator: tile_job_t */
-  HALFSPACE_COVERAGE = 4,       /**< edge_evaluator -> quad_generator: coverage_t */
-  HALFSPACE_QUAD_BEAT = 5,      /**< quad_generator -> early_z: quad_beat_t */
-  HALFSPACE_TESTED_BEAT = 6,    /**< out of early_z: tested_beat_t */
-  HALFSPACE_LINKS = 7
+  HALFSPACE_BLOCK_JOB = 3,      /**< block_walker -> tile_walker: block_job_t */
+  HALFSPACE_TILE_JOB = 4,       /**< tile_walker -> edge_evaluator: tile_job_t */
+  HALFSPACE_COVERAGE = 5,       /**< edge_evaluator -> quad_generator: coverage_t */
+  HALFSPACE_QUAD_BEAT = 6,      /**< quad_generator -> early_z: quad_beat_t */
+  HALFSPACE_TESTED_BEAT = 7,    /**< out of early_z: tested_beat_t */
+  HALFSPACE_LINKS = 8
 };
 
 /** Formats of depth surfaces, as in draw_state_t. Codes: 16 or 24 bits, or the bits of a float32 of 0 to 1.
@@ -121,9 +123,11 @@ HALFSPACE_API int halfspace_watch(halfspace_model* model, int link);
  *
  * Refused is what breaks the contract of a unit that has to work on it:
  *  - setup: depth format, bounds, vertex depth above that of the format;
- *  - tile_walker: empty bounds, E beyond its width within the bounds;
- *  - early_z: a depth test without a surface or outside of it, a depth equation that is not one, E of a
- * covered sample outside the triangle, a slot that was never put, beats that are no burst of quad_generator.
+ *  - block_walker: empty bounds, E beyond its width within the blocks of the bounds;
+ *  - tile_walker: empty bounds, no tile or one that the bounds do not touch, E beyond its width in the block;
+ *  - early_z: a depth test without a surface or outside of it, a depth equation that is not one, a block job
+ * whose edges are not those of its slot, E of a covered sample outside the triangle, a slot that was never
+ * put, beats that are no burst of quad_generator.
  */
 HALFSPACE_API int halfspace_put(halfspace_model* model, int link, const uint32_t* packet, int bits);
 
@@ -143,8 +147,8 @@ HALFSPACE_API int halfspace_check(halfspace_model* model, int link, const uint32
 HALFSPACE_API int64_t halfspace_pending(halfspace_model* model, int link);
 
 /**
- * As after a reset of the RTL: no packet is expected or under way, the next triangle with a tile job has slot
- * 0, packets are counted from 0. Configuration, watched links and depth surfaces stay.
+ * As after a reset of the RTL: no packet is expected or under way, the next triangle with a block job has
+ * slot 0, packets are counted from 0. Configuration, watched links and depth surfaces stay.
  */
 HALFSPACE_API int halfspace_reset(halfspace_model* model);
 

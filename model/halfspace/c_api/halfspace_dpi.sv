@@ -19,10 +19,11 @@ package halfspace_dpi;
     LinkTriangle      = 0,  // screen_triangle_t, draw_state_t
     LinkSetupTriangle = 1,  // setup_triangle_t, depth_equation_t, draw_state_t
     LinkSlot          = 2,  // slot, depth_equation_t, draw_state_t
-    LinkTileJob       = 3,  // tile_job_t
-    LinkCoverage      = 4,  // coverage_t
-    LinkQuadBeat      = 5,  // quad_beat_t
-    LinkTestedBeat    = 6   // tested_beat_t
+    LinkBlockJob      = 3,  // block_job_t
+    LinkTileJob       = 4,  // tile_job_t
+    LinkCoverage      = 5,  // coverage_t
+    LinkQuadBeat      = 6,  // quad_beat_t
+    LinkTestedBeat    = 7   // tested_beat_t
   } link_e;
 
   /// What the functions return that give an int.
@@ -36,7 +37,7 @@ package halfspace_dpi;
   } status_e;
 
   /// The halfspace.h that this file goes with.
-  parameter int AbiVersion = 1;
+  parameter int AbiVersion = 2;
 
   import "DPI-C" function string halfspace_version();
   import "DPI-C" function int halfspace_abi_version();
@@ -79,9 +80,10 @@ package halfspace_dpi;
   // verilator lint_on DECLFILENAME
 
     localparam int unsigned MostMessages = 10;
+    localparam int Links = 8;
 
     local chandle model;
-    local bit watched[7];
+    local bit watched[Links];
     local int unsigned compared_count;
     local int unsigned failed_count;
 
@@ -188,7 +190,7 @@ package halfspace_dpi;
     function longint pending();
       longint sum;
       sum = 0;
-      for (int i = 0; i < 7; i++) begin
+      for (int i = 0; i < Links; i++) begin
         if (watched[i]) begin
           sum += halfspace_pending(model, i);
         end
@@ -198,7 +200,7 @@ package halfspace_dpi;
 
     /// The verdict, printed: 1 when all that was expected came and nothing else did. Frees the model.
     function bit finish();
-      for (int i = 0; i < 7; i++) begin
+      for (int i = 0; i < Links; i++) begin
         if (watched[i] && halfspace_pending(model, i) != 0) begin
           fail($sformatf("%0d packets never came on link %s", halfspace_pending(model, i),
                          halfspace_link_name(i)));

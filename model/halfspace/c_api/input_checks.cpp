@@ -27,6 +27,21 @@ std::int64_t float_of_signed_word(std::int64_t word, int exponent) {
   return float_of_word(magnitude, exponent) | (word < 0 ? 1u << 31 : 0);
 }
 
+/// E of an edge, `e` at pixel (0, 0), fits its width at all samples of x and y, which are first and last
+/// column and row. E is linear: its extremes are at corners.
+void check_e(const Edge& edge, const std::array<std::int64_t, 2>& x, const std::array<std::int64_t, 2>& y,
+             const Widths& widths, const std::string& field, std::int64_t value) {
+  for (const std::int64_t at_x : x) {
+    for (const std::int64_t at_y : y) {
+      const std::int64_t e = edge.c + ((edge.a * at_x + edge.b * at_y) << widths.SubPixelBits);
+      if (!detail::fits(widths.EdgeBits, Sign::kSigned, e)) {
+        throw InputError(fmt::format("{} is {}, so E is {} at pixel ({}, {}); legal: {} signed bits", field,
+                                     value, e, at_x, at_y, widths.EdgeBits));
+      }
+    }
+  }
+}
+
 void demand_equal(const char* field, std::int64_t value, std::int64_t legal, const char* why) {
   if (value != legal) {
     throw InputError(fmt::format("{} is {}; legal: {}, {}", field, value, legal, why));
@@ -81,28 +96,48 @@ void check_vertex_depth(std::int64_t z, std::uint8_t format, const std::string& 
   }
 }
 
-void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const WalkerConfig& walker,
-                const Widths& widths) {
+void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const Widths& widths) {
   check_order("triangle.x_first", packet.x_first, "triangle.x_last", packet.x_last);
   check_order("triangle.y_first", packet.y_first, "triangle.y_last", packet.y_last);
-  // A block holds whole tiles, so its squares hold all that the walk looks at. E is linear: its extremes are
-  // at corners.
-  const int square = walker.block_size;
-  const auto corners = [&](int first, int last) {
-    return std::array<std::int64_t, 2>{first / square * square, last / square * square + square - 1};
+  // The walk looks at whole blocks.
+  const auto columns = [&](int first, int last) {
+    const int size = widths.BlockSize;
+    return std::array<std::int64_t, 2>{first / size * size, last / size * size + size - 1};
   };
   for (std::size_t i = 0; i < 3; ++i) {
-    const Edge& edge = triangle.edge[i];
-    for (const std::int64_t x : corners(packet.x_first, packet.x_last)) {
-      for (const std::int64_t y : corners(packet.y_first, packet.y_last)) {
-        const std::int64_t e = edge.c + ((edge.a * x + edge.b * y) << walker.sub_pixel_bits);
-        if (!detail::fits(widths.EdgeBits, Sign::kSigned, e)) {
-          throw InputError(
-              fmt::format("triangle.e[{}] is {}, so E is {} at pixel ({}, {}); legal: {} signed bits", i,
-                          packet.e[i], e, x, y, widths.EdgeBits));
-        }
-      }
+    check_e(triangle.edge[i], columns(packet.x_first, packet.x_last), columns(packet.y_first, packet.y_last),
+            widths, fmt::format("triangle.e[{}]", i), packet.e[i]);
+  }
+}
+
+void check_block(const BlockJob& block, const Widths& widths) {
+  check_order("x_first", block.x_first, "x_last", block.x_last);
+  check_order("y_first", block.y_first, "y_last", block.y_last);
+  if (block.tiles == 0) {
+    throw InputError("tiles is 0; legal: a tile or more");
+  }
+  const int row_tiles = widths.BlockSize / widths.TileSize;
+  const auto touched = [&](int tile, int first, int last) {
+    return tile >= first / widths.TileSize && tile <= last / widths.TileSize;
+  };
+  for (std::uint64_t left = block.tiles; left != 0; left &= left - 1) {
+    const int x = std::countr_zero(left) % row_tiles;
+    const int y = std::countr_zero(left) / row_tiles;
+    if (!touched(x, block.x_first, block.x_last) || !touched(y, block.y_first, block.y_last)) {
+      throw InputError(
+          fmt::format("tiles is {:#x}, with tile ({}, {}) of the block; legal: ({}, {}) to ({}, {}), which "
+                      "the bounds touch",
+                      block.tiles, x, y, block.x_first / widths.TileSize, block.y_first / widths.TileSize,
+                      block.x_last / widths.TileSize, block.y_last / widths.TileSize));
     }
+  }
+  const int size = widths.BlockSize;
+  const std::int64_t x = std::int64_t{block.block_x} * size;
+  const std::int64_t y = std::int64_t{block.block_y} * size;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t at_zero = block.e[i] - ((block.a[i] * x + block.b[i] * y) << widths.SubPixelBits);
+    check_e({.a = block.a[i], .b = block.b[i], .c = at_zero}, {x, x + size - 1}, {y, y + size - 1}, widths,
+            fmt::format("e[{}]", i), block.e[i]);
   }
 }
 
@@ -170,6 +205,20 @@ void check_equation_of(const DepthEquationPacket& equation, const SetupTriangle&
     sum += edge[i].c + equation.bias[i];
   }
   demand_equal("equation.area2", equation.area2, sum, "the sum of E and bias of the three edges");
+}
+
+void check_block_of(const BlockJob& block, const SetupTriangle& kept) {
+  for (std::size_t i = 1; i < 3; ++i) {
+    demand_equal(i == 1 ? "a[1]" : "a[2]", block.a[i], kept.edge[i].a, "A of the edge in the slot");
+    demand_equal(i == 1 ? "b[1]" : "b[2]", block.b[i], kept.edge[i].b, "B of the edge in the slot");
+  }
+  demand_equal("a[0]", block.a[0], -(block.a[1] + block.a[2]), "less the sum of the other two");
+  demand_equal("b[0]", block.b[0], -(block.b[1] + block.b[2]), "less the sum of the other two");
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum += block.e[i] + kept.depth.bias[i];
+  }
+  demand_equal("the sum of e and bias of the slot", sum, kept.depth.area2, "area2 of the slot");
 }
 
 void check_samples(const Coverage& coverage, const SetupTriangle& triangle, const Widths& widths) {

@@ -12,7 +12,7 @@ namespace halfspace::c_api {
 namespace {
 
 constexpr std::array<const char*, HALFSPACE_LINKS> kNames = {
-    "triangle", "setup_triangle", "slot", "tile_job", "coverage", "quad_beat", "tested_beat"};
+    "triangle", "setup_triangle", "slot", "block_job", "tile_job", "coverage", "quad_beat", "tested_beat"};
 
 /// Calls visit(Layout) for the layout of a link.
 template <class Visit>
@@ -24,6 +24,8 @@ auto with_layout(LinkId link, Visit&& visit) {
       return visit(SetupTriangleLink{});
     case LinkId::kSlot:
       return visit(SlotLink{});
+    case LinkId::kBlockJob:
+      return visit(BlockJobLink{});
     case LinkId::kTileJob:
       return visit(TileJobLink{});
     case LinkId::kCoverage:

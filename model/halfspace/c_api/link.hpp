@@ -19,13 +19,14 @@ enum class LinkId : std::uint8_t {
   kTriangle = HALFSPACE_TRIANGLE,
   kSetupTriangle = HALFSPACE_SETUP_TRIANGLE,
   kSlot = HALFSPACE_SLOT,
+  kBlockJob = HALFSPACE_BLOCK_JOB,
   kTileJob = HALFSPACE_TILE_JOB,
   kCoverage = HALFSPACE_COVERAGE,
   kQuadBeat = HALFSPACE_QUAD_BEAT,
   kTestedBeat = HALFSPACE_TESTED_BEAT,
 };
 
-/// Where tile_walker has a triangle kept.
+/// Where block_walker has a triangle kept.
 struct SlotNumber {
   std::uint8_t slot = 0;
 
@@ -79,6 +80,7 @@ struct Layout {
 using TriangleLink = Layout<ScreenTrianglePacket, DrawStatePacket>;
 using SetupTriangleLink = Layout<SetupTrianglePacket, DepthEquationPacket, DrawStatePacket>;
 using SlotLink = Layout<SlotNumber, DepthEquationPacket, DrawStatePacket>;
+using BlockJobLink = Layout<BlockJob>;
 using TileJobLink = Layout<TileJob>;
 using CoverageLink = Layout<Coverage>;
 using QuadBeatLink = Layout<QuadBeat>;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "halfspace/c_api/input_checks.hpp"
+#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -79,8 +80,12 @@ class Chain final : public UnitChain {
       case LinkId::kSlot:
         std::apply([&](const auto&... packets) { slot(packets...); }, SlotLink::unpack(widths_, words));
         return;
+      case LinkId::kBlockJob:
+        block_job(unpack<BlockJob>(words, widths_));
+        return;
       case LinkId::kTileJob:
-        evaluate(unpack<TileJob>(words, widths_), TileWork::kEvaluate);
+        // Whether the tile is whole matters to counters alone.
+        evaluate(unpack<TileJob>(words, widths_), false);
         return;
       case LinkId::kCoverage:
         covered(unpack<Coverage>(words, widths_));
@@ -129,8 +134,7 @@ class Chain final : public UnitChain {
       return;
     }
     const DepthEquationPacket equation = to_packet(out, context.setup.depth_format, context_.interpolator);
-    emit<SetupTriangleLink>(LinkId::kSetupTriangle, to_packet(out, context_.walker, TileSize), equation,
-                            draw);
+    emit<SetupTriangleLink>(LinkId::kSetupTriangle, to_packet(out, context_.walker), equation, draw);
     walk(out, equation, draw);
   }
 
@@ -148,11 +152,11 @@ class Chain final : public UnitChain {
       in.edge[i] = {.a = packet.a[i], .b = packet.b[i]};
     }
     // The packet has E where the walk starts, the model at pixel (0, 0): the same way back.
-    const SetupTrianglePacket from_zero = to_packet(in, context_.walker, TileSize);
+    const SetupTrianglePacket from_zero = to_packet(in, context_.walker);
     for (std::size_t i = 0; i < 3; ++i) {
       in.edge[i].c = packet.e[i] - from_zero.e[i];
     }
-    check_walk(packet, in, context_.walker, widths_);
+    check_walk(packet, in, widths_);
     if (context_.reaches(LinkId::kTestedBeat)) {
       check_kept(equation, draw);
       if (draw.format != 0 && barycentric()) {
@@ -170,9 +174,9 @@ class Chain final : public UnitChain {
     const std::uint8_t slot = walker_.slot();
     emit<SlotLink>(LinkId::kSlot, SlotNumber{slot}, equation, draw);
     slots_[slot] = Slot{depth_part(equation), draw};
-    walker_.walk<TileSize>(triangle, any_draw_, [this](const TileJob& job, TileWork work, std::uint32_t) {
-      emit<TileJobLink>(LinkId::kTileJob, job);
-      evaluate(job, work);
+    walker_.walk<TileSize>(triangle, any_draw_, [this](const BlockJob& block, std::uint32_t) {
+      emit<BlockJobLink>(LinkId::kBlockJob, block);
+      tiles(block);
     });
   }
 
@@ -184,9 +188,36 @@ class Chain final : public UnitChain {
     slots_[number.slot] = Slot{depth_part(equation), draw};
   }
 
-  void evaluate(const TileJob& job, TileWork work) {
+  void block_job(const BlockJob& block) {
+    if (!context_.reaches(LinkId::kTileJob)) {
+      return;
+    }
+    check_block(block, widths_);
+    if (context_.reaches(LinkId::kTestedBeat)) {
+      // All of it before the first tile: a tile that is tested may write depth.
+      const Slot& slot = kept(block.slot);
+      check_target(slot.draw, block.block_x * widths_.BlockSize + block.x_last,
+                   block.block_y * widths_.BlockSize + block.y_last);
+      if (slot.draw.format != 0 && barycentric()) {
+        check_block_of(block, slot.triangle);
+      }
+    }
+    tiles(block);
+  }
+
+  void tiles(const BlockJob& block) {
+    if (!context_.reaches(LinkId::kTileJob)) {
+      return;
+    }
+    passage::tile_walker<TileSize>(block, context_.walker, any_draw_, [this](const TileJob& job, bool whole) {
+      emit<TileJobLink>(LinkId::kTileJob, job);
+      evaluate(job, whole);
+    });
+  }
+
+  void evaluate(const TileJob& job, bool whole) {
     if (context_.reaches(LinkId::kCoverage)) {
-      const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, any_draw_);
+      const Coverage coverage = passage::edge_evaluator<TileSize>(job, whole, any_draw_);
       emit<CoverageLink>(LinkId::kCoverage, coverage);
       covered(coverage);
     }
@@ -211,12 +242,8 @@ class Chain final : public UnitChain {
       return;
     }
     const Coverage& coverage = burst.packet.coverage;
-    const std::optional<Slot>& slot = slots_[coverage.slot];
-    if (!slot) {
-      throw InputError(fmt::format("slot is {}; legal: one that was put on link {} ({}) before",
-                                   coverage.slot, HALFSPACE_SLOT, link_name(LinkId::kSlot)));
-    }
-    const DrawStatePacket& draw = slot->draw;
+    const Slot& slot = kept(coverage.slot);
+    const DrawStatePacket& draw = slot.draw;
     DrawContext context = draw_context(draw, context_);
     std::uint32_t* stored = nullptr;
     if (context.early_z.test) {
@@ -225,9 +252,9 @@ class Chain final : public UnitChain {
     }
     TileCodes<TileSize> codes{};
     if (context.early_z.format != DepthFormat::kNone && barycentric()) {
-      check_samples(coverage, slot->triangle, widths_);
+      check_samples(coverage, slot.triangle, widths_);
     }
-    const TileMask passed = passage::z_test<TileSize>(slot->triangle, burst, context, stored, codes);
+    const TileMask passed = passage::z_test<TileSize>(slot.triangle, burst, context, stored, codes);
     for (const TestedBeat& beat : tested_beats<TileSize>(burst.packet, passed, codes, widths_)) {
       emit<TestedBeatLink>(LinkId::kTestedBeat, beat);
     }
@@ -289,6 +316,15 @@ class Chain final : public UnitChain {
     return burst;
   }
 
+  [[nodiscard]] const Slot& kept(std::uint8_t number) const {
+    const std::optional<Slot>& slot = slots_[number];
+    if (!slot) {
+      throw InputError(fmt::format("slot is {}; legal: one that was put on link {} ({}) before", number,
+                                   HALFSPACE_SLOT, link_name(LinkId::kSlot)));
+    }
+    return *slot;
+  }
+
   [[nodiscard]] bool barycentric() const { return context_.interpolator == DepthInterpolator::kBarycentric; }
 
   void check_kept(const DepthEquationPacket& equation, const DrawStatePacket& draw) const {
@@ -320,7 +356,7 @@ class Chain final : public UnitChain {
 
   ChainContext& context_;
   const Widths& widths_;
-  passage::TileWalker walker_;
+  passage::BlockWalker walker_;
   DrawContext any_draw_;  ///< for units that do not look at the draw's state
   std::vector<std::optional<Slot>> slots_;
   std::vector<QuadBeat> burst_;  ///< beats that were put, of a burst that is not complete

@@ -10,7 +10,7 @@
 #include "halfspace/c_api/depth_surfaces.hpp"
 #include "halfspace/c_api/expected_packets.hpp"
 #include "halfspace/c_api/link.hpp"
-#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/square_edges.hpp"
 
 namespace halfspace::c_api {
 
