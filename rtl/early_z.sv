@@ -575,7 +575,7 @@ module early_z
   );
 
 `ifndef SYNTHESIS
-  // tile_walker's slots go round: the one that it writes has no burst under way.
+  // block_walker's slots go round: the one that it writes has no burst under way.
   LookupReadsAnotherSlot: assert property (@(posedge clk_i) disable iff (!rst_ni)
       slot_write_i && state_read |-> slot_i != beat_i.slot)
   else $error("the slot of a burst is written while it is looked up");

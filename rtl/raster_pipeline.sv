@@ -1,5 +1,5 @@
-// The pipeline: setup, tile_walker, edge_evaluator, quad_generator and early_z in a row, and the counters of their
-// cycles. Triangles go in, tested quads come out; early_z has the memory port.
+// The pipeline: setup, block_walker, tile_walker, edge_evaluator, quad_generator and early_z in a row, and the counters of
+// their cycles. Triangles go in, tested quads come out; early_z has the memory port.
 //
 // A clear or a flush is taken in a cycle in which nothing is left to do anywhere. Whoever offers one offers no triangle
 // until it is done.
@@ -11,11 +11,9 @@ module raster_pipeline
   parameter int unsigned SetupQueue = 8,
   parameter int unsigned SetupInterval = 1,
   parameter int unsigned SetupFifo = 40,
-  parameter int unsigned BlockSize = 32,
-  parameter bit          BlockLevel = 1'b1,
   parameter bit          TrivialReject = 1'b1,
+  parameter int unsigned BlockFifo = 4,
   parameter bit          TrivialAccept = 1'b1,
-  parameter int unsigned StepInterval = 1,
   parameter int unsigned WalkerFifo = 16,
   parameter int unsigned PipeStages = 2,
   parameter int unsigned EdgeFifo = 4,
@@ -83,13 +81,14 @@ module raster_pipeline
   output logic [CounterBits-1:0]                       counter_o
 );
 
-  logic setup_idle, walker_idle, edge_idle, quad_idle, units_idle, early_z_idle;
+  logic setup_idle, block_idle, tile_idle, edge_idle, quad_idle, units_idle, early_z_idle;
   setup_activity_e          setup_activity;
-  tile_walker_activity_e    walker_activity;
+  block_walker_activity_e   block_activity;
+  tile_walker_activity_e    tile_activity;
   edge_evaluator_activity_e edge_activity;
   quad_generator_activity_e quad_activity;
   z_lookup_activity_e       lookup_activity;
-  z_test_activity_e        test_activity;
+  z_test_activity_e         test_activity;
 
   logic            triangle_valid, triangle_ready;
   setup_triangle_t triangle;
@@ -100,8 +99,6 @@ module raster_pipeline
     .QueueDepth   (SetupQueue),
     .FifoDepth    (SetupFifo),
     .Interval     (SetupInterval),
-    .BlockSize    (BlockSize),
-    .BlockLevel   (BlockLevel),
     .Interpolator (Interpolator)
   ) u_setup (
     .clk_i            (clk_i),
@@ -123,17 +120,13 @@ module raster_pipeline
   logic [SlotBits-1:0] slot;
   depth_equation_t     slot_equation;
   draw_state_t         slot_state;
-  logic                job_valid, job_ready;
-  tile_job_t           job;
+  logic                block_valid, block_ready;
+  block_job_t          block_job;
 
-  tile_walker #(
-    .FifoDepth     (WalkerFifo),
-    .BlockSize     (BlockSize),
-    .BlockLevel    (BlockLevel),
-    .TrivialReject (TrivialReject),
-    .TrivialAccept (TrivialAccept),
-    .StepInterval  (StepInterval)
-  ) u_tile_walker (
+  block_walker #(
+    .FifoDepth     (BlockFifo),
+    .TrivialReject (TrivialReject)
+  ) u_block_walker (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
     .triangle_valid_i (triangle_valid),
@@ -145,11 +138,30 @@ module raster_pipeline
     .slot_o           (slot),
     .slot_equation_o  (slot_equation),
     .slot_state_o     (slot_state),
-    .job_valid_o      (job_valid),
-    .job_ready_i      (job_ready),
-    .job_o            (job),
-    .activity_o       (walker_activity),
-    .idle_o           (walker_idle)
+    .block_valid_o    (block_valid),
+    .block_ready_i    (block_ready),
+    .block_o          (block_job),
+    .activity_o       (block_activity),
+    .idle_o           (block_idle)
+  );
+
+  logic      job_valid, job_ready;
+  tile_job_t job;
+
+  tile_walker #(
+    .FifoDepth     (WalkerFifo),
+    .TrivialAccept (TrivialAccept)
+  ) u_tile_walker (
+    .clk_i         (clk_i),
+    .rst_ni        (rst_ni),
+    .block_valid_i (block_valid),
+    .block_ready_o (block_ready),
+    .block_i       (block_job),
+    .job_valid_o   (job_valid),
+    .job_ready_i   (job_ready),
+    .job_o         (job),
+    .activity_o    (tile_activity),
+    .idle_o        (tile_idle)
   );
 
   logic      coverage_valid, coverage_ready;
@@ -189,7 +201,7 @@ module raster_pipeline
     .idle_o           (quad_idle)
   );
 
-  assign units_idle = setup_idle & walker_idle & edge_idle & quad_idle;
+  assign units_idle = setup_idle & block_idle & tile_idle & edge_idle & quad_idle;
   assign idle_o     = units_idle & early_z_idle;
 
   early_z #(
@@ -242,7 +254,8 @@ module raster_pipeline
   );
 
   assign activity_o = {
-    test_activity, lookup_activity, quad_activity, edge_activity, walker_activity, setup_activity
+    test_activity, lookup_activity, quad_activity, edge_activity, tile_activity, block_activity,
+    setup_activity
   };
 
   cycle_counters #(

@@ -4,6 +4,7 @@
 // model/halfspace/units/link_packets.hpp and model/halfspace/machine/shape.hpp: change those and print this file
 // again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
+// -DHALFSPACE_BLOCK_SIZE=8|16|32|64
 // -DHALFSPACE_TILE_SIZE=4|8|16
 // -DHALFSPACE_QUAD_WIDTH=1|2|4|8|16
 // -DHALFSPACE_TEST_WIDTH=1|2|4|8|16
@@ -11,6 +12,9 @@
 
 `ifndef HALFSPACE_SUB_PIXEL_BITS
 `define HALFSPACE_SUB_PIXEL_BITS 8
+`endif
+`ifndef HALFSPACE_BLOCK_SIZE
+`define HALFSPACE_BLOCK_SIZE 32
 `endif
 `ifndef HALFSPACE_TILE_SIZE
 `define HALFSPACE_TILE_SIZE 8
@@ -28,6 +32,7 @@
 package raster_pkg;
 
   parameter int unsigned SubPixelBits = `HALFSPACE_SUB_PIXEL_BITS;
+  parameter int unsigned BlockSize = `HALFSPACE_BLOCK_SIZE;
   parameter int unsigned TileSize = `HALFSPACE_TILE_SIZE;
   parameter int unsigned QuadWidth = `HALFSPACE_QUAD_WIDTH;
   parameter int unsigned TestWidth = `HALFSPACE_TEST_WIDTH;
@@ -47,6 +52,12 @@ package raster_pkg;
   parameter int unsigned TileLog2 = (TileSize == 4 ? 2 : TileSize == 8 ? 3 : 4);
   // coordinate of a tile on the screen
   parameter int unsigned TileCoordBits = PixelBits - TileLog2;
+  // tiles of a block: a mask, bit y * BlockSize / TileSize + x
+  parameter int unsigned BlockTiles = BlockSize * BlockSize / (TileSize * TileSize);
+  // pixel coordinate inside a block
+  parameter int unsigned BlockLog2 = TileLog2 + (BlockTiles == 4 ? 1 : BlockTiles == 16 ? 2 : 3);
+  // coordinate of a block on the screen
+  parameter int unsigned BlockCoordBits = PixelBits - BlockLog2;
   // edge value inside one tile, saturated at the tile origin
   parameter int unsigned LocalEdgeBits = StepBits + TileLog2 + 2;
   // coverage mask of a tile, bit y * TileSize + x
@@ -124,7 +135,7 @@ package raster_pkg;
     logic [TileCoordBits-1:0] tiles_x;
   } draw_state_t;
 
-  // setup -> tile_walker: what the walk needs
+  // setup -> block_walker: what the walk needs
   typedef struct packed {
     edge_t [2:0] e;
     step_t [2:0] a;
@@ -135,7 +146,7 @@ package raster_pkg;
     logic [PixelBits-1:0] y_last;
   } setup_triangle_t;
 
-  // setup -> early_z, by way of the slots of tile_walker
+  // setup -> early_z, by way of the slots of block_walker
   typedef struct packed {
     step_t [1:0] a;
     step_t [1:0] b;
@@ -155,6 +166,21 @@ package raster_pkg;
     logic [CodeBits-1:0] min_code;
     logic [CodeBits-1:0] max_code;
   } depth_equation_t;
+
+  // block_walker -> tile_walker
+  typedef struct packed {
+    logic [SlotBits-1:0] slot;
+    logic [BlockCoordBits-1:0] block_x;
+    logic [BlockCoordBits-1:0] block_y;
+    edge_t [2:0] e;
+    step_t [2:0] a;
+    step_t [2:0] b;
+    logic [BlockLog2-1:0] x_first;
+    logic [BlockLog2-1:0] x_last;
+    logic [BlockLog2-1:0] y_first;
+    logic [BlockLog2-1:0] y_last;
+    logic [BlockTiles-1:0] tiles;
+  } block_job_t;
 
   // tile_walker -> edge_evaluator
   typedef struct packed {
@@ -205,7 +231,7 @@ package raster_pkg;
   } tested_beat_t;
 
   // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait
-  parameter int unsigned StageCount = 6;
+  parameter int unsigned StageCount = 7;
   parameter int unsigned ActivityCount = 6;
   parameter int unsigned ActivityBits = $clog2(ActivityCount);
 
@@ -217,12 +243,19 @@ package raster_pkg;
     SetupNoCredit = 3
   } setup_activity_e;
 
+  // a cycle of block_walker
+  typedef enum logic [ActivityBits-1:0] {
+    BlockWalkerBusy = 0,
+    BlockWalkerNoTriangle = 1,
+    BlockWalkerLoad = 2,
+    BlockWalkerNoCredit = 3
+  } block_walker_activity_e;
+
   // a cycle of tile_walker
   typedef enum logic [ActivityBits-1:0] {
     TileWalkerBusy = 0,
-    TileWalkerNoTriangle = 1,
-    TileWalkerLoad = 2,
-    TileWalkerNoCredit = 3
+    TileWalkerNoBlock = 1,
+    TileWalkerNoCredit = 2
   } tile_walker_activity_e;
 
   // a cycle of edge_evaluator
@@ -260,20 +293,23 @@ package raster_pkg;
 
   // what can happen in a cycle: bits of the probe of the pipeline's bench
   parameter int unsigned EventDecide = 0;  // setup draws or drops a triangle
-  parameter int unsigned EventAccept = 1;  // tile_walker takes a triangle
-  parameter int unsigned EventEmit = 2;  // tile_walker makes a tile job
-  parameter int unsigned EventJob = 3;  // edge_evaluator takes a tile job
-  parameter int unsigned EventCoverage = 4;  // quad_generator takes a coverage
-  parameter int unsigned EventBeat = 5;  // z_lookup takes a beat
-  parameter int unsigned EventFirstBeat = 6;  // it is the first of its burst
-  parameter int unsigned EventLastBeat = 7;  // it is the last of its burst
-  parameter int unsigned EventTestFirst = 8;  // z_test tests the first beat of a burst
-  parameter int unsigned EventTestLast = 9;  // z_test tests the last beat of a burst
-  parameter int unsigned EventCount = 10;
+  parameter int unsigned EventAccept = 1;  // block_walker takes a triangle
+  parameter int unsigned EventBlock = 2;  // block_walker makes a block job
+  parameter int unsigned EventBlockDone = 3;  // tile_walker makes the last tile job of a block job
+  parameter int unsigned EventEmit = 4;  // tile_walker makes a tile job
+  parameter int unsigned EventJob = 5;  // edge_evaluator takes a tile job
+  parameter int unsigned EventCoverage = 6;  // quad_generator takes a coverage
+  parameter int unsigned EventBeat = 7;  // z_lookup takes a beat
+  parameter int unsigned EventFirstBeat = 8;  // it is the first of its burst
+  parameter int unsigned EventLastBeat = 9;  // it is the last of its burst
+  parameter int unsigned EventTestFirst = 10;  // z_test tests the first beat of a burst
+  parameter int unsigned EventTestLast = 11;  // z_test tests the last beat of a burst
+  parameter int unsigned EventCount = 12;
 
 endpackage : raster_pkg
 
 `undef HALFSPACE_SUB_PIXEL_BITS
+`undef HALFSPACE_BLOCK_SIZE
 `undef HALFSPACE_TILE_SIZE
 `undef HALFSPACE_QUAD_WIDTH
 `undef HALFSPACE_TEST_WIDTH

@@ -1,8 +1,7 @@
 foreach(sub_pixel_bits RANGE 4 8)
-  foreach(configuration "4;1;8;1" "8;2;32;0" "8;4;16;1" "16;8;64;1" "8;16;32;1")
-    list(POP_FRONT configuration tile_size interval block_size block_level)
+  foreach(configuration "4;1;8" "8;2;32" "8;4;16" "16;8;64" "8;16;64")
+    list(POP_FRONT configuration tile_size interval block_size)
     halfspace_lint(t${tile_size}_s${sub_pixel_bits}_i${interval} -DHALFSPACE_TILE_SIZE=${tile_size}
-                   -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -GInterval=${interval} -GBlockSize=${block_size}
-                   -GBlockLevel=1'b${block_level})
+                   -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -DHALFSPACE_BLOCK_SIZE=${block_size} -GInterval=${interval})
   endforeach()
 endforeach()

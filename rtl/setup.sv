@@ -18,10 +18,6 @@ module setup
   parameter int unsigned FifoDepth = 40,
   /// Cycles from one drawn triangle to the next: 1, 2, 4, 8 or 16. The divider has 16 / Interval stages.
   parameter int unsigned Interval = 1,
-  /// Pixels on a side of a block of tile_walker, 8, 16, 32 or 64, more than TileSize.
-  parameter int unsigned BlockSize = 32,
-  /// Whether tile_walker decides blocks: a walk whose bounds do not fit one tile then starts at a block.
-  parameter bit BlockLevel = 1'b1,
   /// Interpolator of depth, 0 plane or 1 barycentric: which equation is made.
   parameter int unsigned Interpolator = Plane
 ) (
@@ -34,7 +30,7 @@ module setup
   input  screen_triangle_t triangle_i,
   input  draw_state_t      state_i,
 
-  // tile_walker
+  // block_walker
   output logic             triangle_valid_o,
   input  logic             triangle_ready_i,
   output setup_triangle_t  triangle_o,
@@ -166,17 +162,15 @@ module setup
     known_d.state  = verdict.state;
   end
 
-  setup_edges #(
-    .BlockSize  (BlockSize),
-    .BlockLevel (BlockLevel)
-  ) u_edges (
+  setup_edges u_edges (
     .clk_i              (clk_i),
     .rst_ni             (rst_ni),
     .valid_i            (draw),
     .x_i                (verdict.triangle.x),
     .y_i                (verdict.triangle.y),
     .area2_i            (verdict.area2),
-    .bounds_i           (verdict.bounds),
+    .x_first_i          (verdict.bounds.x_first),
+    .y_first_i          (verdict.bounds.y_first),
     .bottom_left_rule_i (verdict.state.bottom_left_rule),
     .valid_o            (edges_valid),
     .e_o                (edges_d.e),

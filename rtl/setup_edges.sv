@@ -1,4 +1,4 @@
-// Edge equations of a drawn triangle at the pixel where its walk starts.
+// Edge equations of a drawn triangle at the first pixel of the first block of its bounds, where the walk starts.
 //
 // Four registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2; E of edge
 // 0, and the fill rule. The three unbiased E add up to 2A everywhere. Four multipliers of StepBits. What a register takes is
@@ -7,12 +7,7 @@
 module setup_edges
   import raster_pkg::*;
   import setup_pkg::*;
-#(
-  /// Pixels on a side of a block of the walk, 8, 16, 32 or 64, more than TileSize.
-  parameter int unsigned BlockSize = 32,
-  /// 1: a walk whose bounds do not fit one tile starts at a block; 0: at a tile.
-  parameter bit BlockLevel = 1'b1
-) (
+(
   input  logic                  clk_i,
   input  logic                  rst_ni,
 
@@ -20,7 +15,8 @@ module setup_edges
   input  coord_t [2:0]          x_i,
   input  coord_t [2:0]          y_i,
   input  area_t                 area2_i,
-  input  bounds_t               bounds_i,
+  input  logic [PixelBits-1:0]  x_first_i, // of the bounds
+  input  logic [PixelBits-1:0]  y_first_i,
   input  logic                  bottom_left_rule_i,
 
   // Four cycles later.
@@ -33,22 +29,12 @@ module setup_edges
 
   typedef logic [PixelBits-1:0] pixel_t;
 
-  // Where the walk starts.
-  localparam pixel_t InTile = pixel_t'(TileSize - 1);
-  localparam pixel_t InBlock = BlockLevel ? pixel_t'(BlockSize - 1) : InTile;
+  // Bits of a pixel's number that say where in its block it is.
+  localparam pixel_t InBlock = pixel_t'(BlockSize - 1);
 
-  function automatic logic same_tile(pixel_t first, pixel_t last);
-    return ((first ^ last) & ~InTile) == '0;
-  endfunction
-
-  function automatic step_t centre(pixel_t pixel);
-    return step_t'({1'b0, pixel, 1'b1, {(SubPixelBits - 1){1'b0}}});
-  endfunction
-
-  // Bits of a pixel's number below those of the start.
-  function automatic pixel_t below(bounds_t bounds);
-    return same_tile(bounds.x_first, bounds.x_last) &&
-           same_tile(bounds.y_first, bounds.y_last) ? InTile : InBlock;
+  // The centre of the first pixel of its block.
+  function automatic step_t start(pixel_t pixel);
+    return step_t'({1'b0, pixel & ~InBlock, 1'b1, {(SubPixelBits - 1){1'b0}}});
   endfunction
 
   // Bit i: register i holds a triangle.
@@ -82,8 +68,8 @@ module setup_edges
         steps_q.a[i] <= step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
         steps_q.b[i] <= step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
       end
-      steps_q.x                <= centre(bounds_i.x_first & ~below(bounds_i)) - step_t'(x_i[0]);
-      steps_q.y                <= centre(bounds_i.y_first & ~below(bounds_i)) - step_t'(y_i[0]);
+      steps_q.x                <= start(x_first_i) - step_t'(x_i[0]);
+      steps_q.y                <= start(y_first_i) - step_t'(y_i[0]);
       steps_q.area2            <= area2_i;
       steps_q.bottom_left_rule <= bottom_left_rule_i;
     end

@@ -3,7 +3,5 @@ credits.sv
 memory_fifo.sv
 credit_fifo.sv
 pipe_register.sv
-corner_test.sv
-walk_edge.sv
-walk_position.sv
+tile_edge.sv
 tile_walker.sv

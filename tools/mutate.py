@@ -45,8 +45,18 @@ GROUPS = {
         ["--tiles", "12000"],
         ["setup_plane", "quotient_digits", "setup_depth"],
     ),
+    # The modules that other units have too are mutated there: these have only a part of what credit_fifo can be.
+    "block_walker": Group(
+        "block_walker",
+        ["t8_b32", "t4_b32", "t16_b32_noreject"],
+        ["--tiles", "40000"],
+        ["block_walker", "block_position", "block_edge"],
+    ),
     "tile_walker": Group(
-        "tile_walker", ["t8_b32", "t4_b64", "t16_b32_noblocks", "t4_b8_noreject"], ["--tiles", "40000"]
+        "tile_walker",
+        ["t8_b32", "t4_b32", "t16_b32_noaccept"],
+        ["--tiles", "40000"],
+        ["tile_walker", "tile_edge"],
     ),
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),

@@ -11,7 +11,8 @@ from synthesis.units import UNITS
 MACHINE = {
     interpolator: [
         (1, "setup", f"sub_pixel_bits=8 Interval=1 Interpolator={number}"),
-        (1, "tile_walker", "tile_size=8 sub_pixel_bits=8"),
+        (1, "block_walker", "tile_size=8 block_size=32 sub_pixel_bits=8"),
+        (1, "tile_walker", "tile_size=8 block_size=32 sub_pixel_bits=8"),
         (1, "edge_evaluator", "tile_size=8 sub_pixel_bits=8"),
         (1, "quad_generator", "tile_size=8 quad_width=4"),
         *early_z,

@@ -63,22 +63,24 @@ def _edge_evaluator() -> Unit:
     )
 
 
-def _tile_walker() -> Unit:
-    def of(tile, sub_pixel, measured=True, **parameters):
-        defines = {"TILE_SIZE": tile, "SUB_PIXEL_BITS": sub_pixel}
-        return Configuration("tile_walker", defines, parameters, measured=measured)
+def _walker(name, switch) -> Unit:
+    def of(tile, block, sub_pixel=8, measured=True, **parameters):
+        defines = {"TILE_SIZE": tile, "BLOCK_SIZE": block, "SUB_PIXEL_BITS": sub_pixel}
+        return Configuration(name, defines, parameters, measured=measured)
 
     return Unit(
-        "tile_walker",
-        ("tile_walker",),
+        name,
+        (name,),
         (
-            of(4, 8),
-            of(8, 8),
-            of(16, 8),
-            of(8, 8, BlockLevel="1'b0"),
-            of(8, 4, False),
-            of(4, 5, False, BlockSize=8, StepInterval=8),
-            of(16, 6, False, BlockSize=64, TrivialReject="1'b0"),
+            of(4, 32),
+            of(8, 32),
+            of(16, 32),
+            of(8, 16),
+            of(8, 64),
+            of(8, 32, **{switch: "1'b0"}),
+            of(8, 32, 4, False),
+            of(4, 8, 5, False, FifoDepth=2),
+            of(16, 64, 6, False, FifoDepth=8),
         ),
     )
 
@@ -129,8 +131,8 @@ def _setup() -> Unit:
             of(8, 1, PLANE),
             of(4, 1, BARYCENTRIC, False),
             of(4, 1, PLANE, False),
-            of(5, 2, BARYCENTRIC, False, BlockLevel="1'b0", FifoDepth=2),
-            of(6, 8, BARYCENTRIC, False, BlockSize=64),
+            of(5, 2, BARYCENTRIC, False, FifoDepth=2),
+            of(6, 8, BARYCENTRIC, False, QueueDepth=2),
         ),
     )
 
@@ -228,7 +230,8 @@ UNITS = {
     unit.name: unit
     for unit in (
         _edge_evaluator(),
-        _tile_walker(),
+        _walker("block_walker", "TrivialReject"),
+        _walker("tile_walker", "TrivialAccept"),
         _quad_generator(),
         _setup(),
         _early_z(),

@@ -91,6 +91,9 @@ class Bench {
       offered_ = pending_ || stimulus_.next(input_);
       pending_ = offered_;
       source_empty_ = !offered_;
+      if (offered_ && shape_.reads_ahead) {
+        stimulus_.reference(input_, scoreboard_);
+      }
     }
     const bool sink_ready = !stall_.stalled();
     // Outputs come from registers: they are known before the inputs of the cycle are.
@@ -108,7 +111,9 @@ class Bench {
     const bool left = shim_.valid() && sink_ready;
     check(sink_ready, left);
     if (accepted) {
-      stimulus_.reference(input_, scoreboard_);
+      if (!shape_.reads_ahead) {
+        stimulus_.reference(input_, scoreboard_);
+      }
       offered_ = false;
       pending_ = false;
     }
@@ -146,10 +151,19 @@ class Bench {
     for (std::uint32_t& word : other) {
       word = ~word;
     }
+    if (shape_.reads_ahead) {
+      dut_.set_input(!offered_, input_);
+      dut_.set_output_ready(!shim_.ready());
+      dut_.settle();
+      if (dut_.input_ready() != in_ready) {
+        fail(Failure{FailureKind::kHandshake, cycle_, "ready follows a handshake within the cycle"});
+      }
+    }
     dut_.set_input(!offered_, other);
     dut_.set_output_ready(!shim_.ready());
     dut_.settle();
-    if (dut_.input_ready() != in_ready || dut_.output_valid() != out_valid ||
+    const bool ready_follows = !shape_.reads_ahead && dut_.input_ready() != in_ready;
+    if (ready_follows || dut_.output_valid() != out_valid ||
         !std::ranges::equal(dut_.output_payload(), payload)) {
       fail(Failure{FailureKind::kHandshake, cycle_, "an output follows an input within the cycle"});
     }

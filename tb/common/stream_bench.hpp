@@ -43,6 +43,9 @@ struct UnitShape {
   int capacity = 0;  ///< credits
   /// For a unit whose cycle table latency and capacity do not tell; the checker of a run.
   std::function<std::unique_ptr<UnitTiming>()> timing = nullptr;
+  /// The unit works on the packet at its input before it takes it: what comes of it is expected from the
+  /// offer on, and ready may follow from the packet.
+  bool reads_ahead = false;
   /// Cycles without a packet on any link that mean a deadlock: longer than any stall profile holds a link,
   /// and than the unit may work in silence.
   std::uint64_t deadlock_cycles = 2000;

@@ -11,11 +11,12 @@ namespace {
 
 using namespace rtl;
 
-constexpr std::array<std::pair<const char*, PipelineFault>, 16> kNames{{
+constexpr std::array<std::pair<const char*, PipelineFault>, 17> kNames{{
     {"none", PipelineFault::kNone},
     {"flip-triangle", PipelineFault::kFlipTriangle},
     {"flip-equation", PipelineFault::kFlipEquation},
     {"flip-state", PipelineFault::kFlipState},
+    {"flip-block", PipelineFault::kFlipBlock},
     {"flip-job", PipelineFault::kFlipJob},
     {"flip-coverage", PipelineFault::kFlipCoverage},
     {"flip-beat", PipelineFault::kFlipBeat},
@@ -96,6 +97,9 @@ class FaultyPipeline final : public PipelineDecorator {
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
     return payload(pipeline().draw_state(), PipelineFault::kFlipState);
   }
+  [[nodiscard]] std::span<const std::uint32_t> block_job() const override {
+    return payload(pipeline().block_job(), PipelineFault::kFlipBlock);
+  }
   [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
     return payload(pipeline().tile_job(), PipelineFault::kFlipJob);
   }
@@ -123,6 +127,8 @@ class FaultyPipeline final : public PipelineDecorator {
       case PipelineFault::kFlipEquation:
       case PipelineFault::kFlipState:
         return bit(Event::kAccept);
+      case PipelineFault::kFlipBlock:
+        return bit(Event::kBlockDone);
       case PipelineFault::kFlipJob:
         return bit(Event::kJob);
       case PipelineFault::kFlipCoverage:

@@ -16,6 +16,7 @@ enum class PipelineFault : std::uint8_t {
   kFlipTriangle,  ///< a bit of a packet of setup; of the others likewise
   kFlipEquation,
   kFlipState,
+  kFlipBlock,
   kFlipJob,
   kFlipCoverage,
   kFlipBeat,

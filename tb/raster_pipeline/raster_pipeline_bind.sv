@@ -22,6 +22,16 @@ bind raster_pipeline handshake_checker #(
 );
 
 bind raster_pipeline handshake_checker #(
+  .Width ($bits(raster_pkg::block_job_t))
+) u_block_law (
+  .clk_i     (clk_i),
+  .rst_ni    (rst_ni),
+  .valid_i   (block_valid),
+  .ready_i   (block_ready),
+  .payload_i (block_job)
+);
+
+bind raster_pipeline handshake_checker #(
   .Width ($bits(raster_pkg::tile_job_t))
 ) u_job_law (
   .clk_i     (clk_i),

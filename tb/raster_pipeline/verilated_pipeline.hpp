@@ -68,6 +68,9 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
     return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__state);
   }
+  [[nodiscard]] std::span<const std::uint32_t> block_job() const override {
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__block_job);
+  }
   [[nodiscard]] std::span<const std::uint32_t> tile_job() const override {
     return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__tile_job);
   }

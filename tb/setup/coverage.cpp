@@ -15,7 +15,7 @@ constexpr std::array<const char*, 5> kDecisions = {"dropped", "drawn", "no_trian
 constexpr std::array<const char*, 5> kFormatNames = {"none", "unorm16", "unorm24", "", "float32"};
 constexpr std::array<const char*, 7> kVerdicts = {"drawn",     "zero_area", "culled_front", "culled_back",
                                                   "no_sample", "outside",   "empty"};
-constexpr std::array<const char*, 3> kSpans = {"tile", "block", "blocks"};
+constexpr std::array<const char*, 2> kSpans = {"block", "blocks"};
 constexpr std::array<const char*, 3> kSigns = {"negative", "zero", "positive"};
 constexpr std::array<const char*, 2> kRules = {"top_left", "bottom_left"};
 constexpr std::array<const char*, 5> kDepths = {"equal", "first_least", "first_most", "first_middle", "ties"};
@@ -128,10 +128,10 @@ void SetupCoverage::triangle(const SetupJob& job, const SetupResult& result, con
   hit(edge_bin(sign_of(edge[0].a), edge[2].a == 0, rule));
 
   const PixelRect& bounds = result.triangle.bounds;
-  const auto fits = [&](int size) {
-    return bounds.x_first / size == bounds.x_last / size && bounds.y_first / size == bounds.y_last / size;
-  };
-  const std::size_t span = fits(model.dut.tile_size) ? 0 : fits(model.block_size) ? 1 : 2;
+  const int size = model.block_size;
+  const bool one_block =
+      bounds.x_first / size == bounds.x_last / size && bounds.y_first / size == bounds.y_last / size;
+  const std::size_t span = one_block ? 0 : 1;
   const int width = std::bit_width(static_cast<std::uint64_t>(area2 < 0 ? -area2 : area2));
   hit(size_bin(span, sign_of(width - 32), format));
   hit(depth_bin(depth_index(job.triangle.z), format));

@@ -12,8 +12,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   Config config;
   config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
   config.tile_walker.tile_size = model.dut.tile_size;
-  config.tile_walker.block_size = model.block_size;
-  config.tile_walker.block_level = model.block_level;
+  config.block_walker.block_size = model.block_size;
   FrameResult result;
   result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);

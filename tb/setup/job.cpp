@@ -96,7 +96,7 @@ std::vector<std::uint32_t> output_words(const SetupJob& job, const SetupTriangle
   const Widths widths = model.widths();
   std::vector<std::uint32_t> words(words_for(output_bits(widths)));
   Link link(words, output_bits(widths));
-  link.append(to_packet(triangle, model.walker(), widths.TileSize), widths);
+  link.append(to_packet(triangle, model.walker()), widths);
   link.append(to_packet(triangle, static_cast<DepthFormat>(job.state.format), model.interpolator()), widths);
   link.append(job.state, widths);
   return words;

@@ -7,7 +7,7 @@
 #include "common/stream_dut.hpp"
 #include "halfspace/machine/shape.hpp"
 #include "halfspace/numerics/widths.hpp"
-#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/square_edges.hpp"
 
 namespace halfspace::tb {
 
@@ -17,7 +17,6 @@ struct SetupModel {
   int fifo = 24;
   int interval = 1;
   int block_size = 32;
-  bool block_level = true;
   int interpolator_number = 1;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
@@ -30,10 +29,10 @@ struct SetupModel {
     return latency(Link::kSetup, config);
   }
   [[nodiscard]] Widths widths() const {
-    return {.SubPixelBits = dut.sub_pixel_bits, .TileSize = dut.tile_size};
+    return {.SubPixelBits = dut.sub_pixel_bits, .BlockSize = block_size, .TileSize = dut.tile_size};
   }
   [[nodiscard]] WalkerConfig walker() const {
-    return {.sub_pixel_bits = dut.sub_pixel_bits, .block_size = block_size, .block_level = block_level};
+    return {.sub_pixel_bits = dut.sub_pixel_bits, .block_size = block_size};
   }
 };
 

@@ -18,14 +18,13 @@ struct SetupPins {
 };
 
 template <class Model>
-SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int queue, int fifo,
-                     int interval, int block_size, bool block_level, int interpolator) {
+SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int block_size, int queue,
+                     int fifo, int interval, int interpolator) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
           queue,
           fifo,
           interval,
           block_size,
-          block_level,
           interpolator};
 }
 

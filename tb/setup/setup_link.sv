@@ -6,8 +6,6 @@ module setup_link
   parameter int unsigned QueueDepth = 8,
   parameter int unsigned FifoDepth = 24,
   parameter int unsigned Interval = 1,
-  parameter int unsigned BlockSize = 32,
-  parameter bit BlockLevel = 1'b1,
   parameter int unsigned Interpolator = 1,
   // Bits of both links.
   localparam int unsigned InBits = $bits(screen_triangle_t) + $bits(draw_state_t),
@@ -38,11 +36,9 @@ module setup_link
   logic            unused_idle;
 
   setup #(
-    .QueueDepth (QueueDepth),
-    .FifoDepth  (FifoDepth),
-    .Interval   (Interval),
-    .BlockSize  (BlockSize),
-    .BlockLevel (BlockLevel),
+    .QueueDepth   (QueueDepth),
+    .FifoDepth    (FifoDepth),
+    .Interval     (Interval),
     .Interpolator (Interpolator)
   ) u_setup (
     .clk_i            (clk_i),

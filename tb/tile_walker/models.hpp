@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "common/stream_dut.hpp"
-#include "reference_walk.hpp"
+#include "parameters.hpp"
 
 namespace halfspace::tb {
 
 struct TileWalkerModel {
   DutModel dut;
-  WalkerParameters parameters;
+  TileWalkerParameters parameters;
 };
 
 [[nodiscard]] std::vector<TileWalkerModel> tile_walker_models();

@@ -1,11 +1,7 @@
 /// Names of tile_walker's pins, and what the verilated classes make of them.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "common/verilated_dut.hpp"
 #include "models.hpp"
@@ -13,39 +9,19 @@
 namespace halfspace::tb {
 
 struct TileWalkerPins {
-  static auto& input_valid(auto& model) { return model.triangle_valid_i; }
-  /// Triangle, equation and state, each in whole words.
-  static void set_input_payload(auto& model, std::span<const std::uint32_t> payload) {
-    const auto take = [&](auto& port) {
-      set_port(port, payload);
-      payload = payload.subspan(words_of(port).size());
-    };
-    take(model.triangle_i);
-    take(model.equation_i);
-    take(model.state_i);
-  }
-  static auto input_ready(auto& model) { return model.triangle_ready_o; }
+  static auto& input_valid(auto& model) { return model.block_valid_i; }
+  static auto& input_payload(auto& model) { return model.block_i; }
+  static auto input_ready(auto& model) { return model.block_ready_o; }
   static auto output_valid(auto& model) { return model.job_valid_o; }
   static auto& output_payload(auto& model) { return model.job_o; }
   static auto& output_ready(auto& model) { return model.job_ready_i; }
-  /// The write port of the slots: write, slot, equation, state.
-  static void side_outputs(auto& model, std::vector<std::uint32_t>& words) {
-    words.push_back(model.slot_write_o);
-    words.push_back(model.slot_o);
-    const auto add = [&](const auto& port) {
-      const std::span<const std::uint32_t> bits = words_of(port);
-      words.insert(words.end(), bits.begin(), bits.end());
-    };
-    add(model.slot_equation_o);
-    add(model.slot_state_o);
-  }
 };
 
 template <class Model>
-TileWalkerModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int fifo_depth,
-                          int block_size, bool block_level, bool reject, bool accept, int interval) {
+TileWalkerModel verilated(const std::string& name, int tile_size, int block_size, int sub_pixel_bits,
+                          int fifo_depth, bool accept) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, TileWalkerPins>},
-          {tile_size, sub_pixel_bits, fifo_depth, block_size, block_level, reject, accept, interval}};
+          {{tile_size, block_size, sub_pixel_bits}, fifo_depth, accept}};
 }
 
 }  // namespace halfspace::tb

@@ -1,441 +1,162 @@
 #include "stimulus.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
-#include <optional>
-#include <span>
+#include <bit>
 #include <utility>
 
-#include "halfspace/config/config.hpp"
-#include "halfspace/machine/draw_state.hpp"
-#include "halfspace/scene/front_end.hpp"
-#include "halfspace/scene/load.hpp"
+#include "halfspace/machine/tile_size.hpp"
+#include "halfspace/units/block_walker.hpp"
 #include "halfspace/units/packing.hpp"
-#include "halfspace/units/setup.hpp"
+#include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace::tb {
 namespace {
 
-constexpr std::int64_t kScreen = 16384;  // pixels on a side, at most
-constexpr std::int64_t kFullScreen = 2048;
-constexpr std::uint64_t kLargeEvery = 1000;  // random triangles for one of the full screen
+constexpr std::size_t kMostBlocks = 40;  // of a random triangle
 
-struct Point {
-  std::int64_t x = 0;  ///< in sub-pixels
-  std::int64_t y = 0;
-};
-using Points = std::array<Point, 3>;
-
-PixelRect screen() { return {0, 0, kScreen - 1, kScreen - 1}; }
-
-std::optional<SetupTriangle> set_up(const Points& v, const PixelRect& bounds, bool bottom_left_rule,
-                                    const WalkerParameters& parameters) {
-  const std::int64_t limit = std::int64_t{1} << (parameters.widths().CoordBits - 1);
-  ScreenTriangle triangle;
-  for (std::size_t i = 0; i < 3; ++i) {
-    triangle.v[i] = {.x = static_cast<std::int32_t>(std::clamp(v[i].x, -limit, limit - 1)),
-                     .y = static_cast<std::int32_t>(std::clamp(v[i].y, -limit, limit - 1))};
-  }
-  const SetupState state{
-      .sub_pixel_bits = parameters.sub_pixel_bits, .bottom_left_rule = bottom_left_rule, .bounds = bounds};
-  SetupTriangle out;
-  return setup(triangle, state, out) == SetupVerdict::kDrawn ? std::optional(out) : std::nullopt;
-}
-
-/// Collects what setup draws.
-class Triangles {
- public:
-  explicit Triangles(const WalkerParameters& parameters)
-      : parameters_(parameters), one_(std::int64_t{1} << parameters.sub_pixel_bits) {}
-
-  /// Corners in pixels, from the top left corner of pixel (0, 0), and sub-pixels on top.
-  void add(Points v, Point offset = {}, const PixelRect& bounds = screen(), bool bottom_left_rule = false) {
-    for (Point& p : v) {
-      p = {p.x * one_ + offset.x, p.y * one_ + offset.y};
+/// The tiles of a random kind of mask: all, some, one, the first and the last.
+std::uint64_t random_part(std::uint64_t tiles, Random& random) {
+  switch (random.below(8)) {
+    case 0: {
+      const std::uint64_t some = tiles & random.bits();
+      return some != 0 ? some : tiles;
     }
-    if (const auto triangle = set_up(v, bounds, bottom_left_rule, parameters_)) {
-      triangles_.push_back(*triangle);
-    }
-  }
-  void add_square(std::int64_t x, std::int64_t y, std::int64_t size, const PixelRect& bounds = screen()) {
-    const std::int64_t right = x + size;
-    const std::int64_t bottom = y + size;
-    add({{{x, y}, {right, y}, {x, bottom}}}, {}, bounds);
-    add({{{right, y}, {right, bottom}, {x, bottom}}}, {}, bounds);
-  }
-  [[nodiscard]] std::int64_t one() const { return one_; }
-  std::vector<SetupTriangle> take() { return std::exchange(triangles_, {}); }
-
- private:
-  const WalkerParameters& parameters_;
-  std::int64_t one_;
-  std::vector<SetupTriangle> triangles_;
-};
-
-/// All turns and mirror images of a triangle around (x, y), with vertices on pixel centres or corners: edges
-/// that run through samples, along rows and columns, and of every sign.
-void add_turns(Triangles& out, std::int64_t x, std::int64_t y, std::int64_t size) {
-  static constexpr std::array<std::array<std::int64_t, 4>, 8> kTurns = {{{1, 0, 0, 1},
-                                                                         {-1, 0, 0, 1},
-                                                                         {1, 0, 0, -1},
-                                                                         {-1, 0, 0, -1},
-                                                                         {0, 1, 1, 0},
-                                                                         {0, -1, 1, 0},
-                                                                         {0, 1, -1, 0},
-                                                                         {0, -1, -1, 0}}};
-  const std::array<Points, 3> shapes = {Points{{{0, 0}, {size, 0}, {0, size}}},
-                                        Points{{{0, 0}, {2 * size, size}, {size, 2 * size}}},
-                                        Points{{{0, 0}, {2 * size, 0}, {size, 2 * size}}}};
-  for (const Points& shape : shapes) {
-    for (const auto& turn : kTurns) {
-      Points v;
-      for (std::size_t i = 0; i < 3; ++i) {
-        v[i] = {x + turn[0] * shape[i].x + turn[1] * shape[i].y,
-                y + turn[2] * shape[i].x + turn[3] * shape[i].y};
+    case 1: {
+      std::uint64_t one = tiles;
+      for (std::uint64_t skip = random.below(static_cast<std::uint64_t>(std::popcount(tiles))); skip > 0;
+           --skip) {
+        one &= one - 1;
       }
-      for (const bool bottom_left_rule : {false, true}) {
-        out.add(v, {}, screen(), bottom_left_rule);
-        out.add(v, {out.one() / 2, out.one() / 2}, screen(), bottom_left_rule);
-      }
+      return one & -one;
     }
+    case 2:
+      return (tiles & -tiles) | std::bit_floor(tiles);
+    default:
+      return tiles;
   }
 }
 
-/// A triangle with a bounding box of samples none of which it covers.
-void add_uncovered(Triangles& out, std::int64_t x, std::int64_t y, std::int64_t size) {
-  out.add({{{x, y}, {x + size, y + size}, {x + size, y + size}}}, {});
-  out.add({{{x, y}, {x + 2 * size, y + 2 * size - 1}, {x + 2 * size, y + 2 * size - 1}}});
-  out.add({{{x, y + 1}, {x + size, y}, {x, y + 1}}});
-  out.add({{{x, y}, {x + 1, y + size}, {x + 1, y + size - 1}}}, {out.one() / 2 + 1, out.one() / 2 + 1});
-}
-
-/// Sliver, turned so that its long side has a slope of its own: much of its bounds is far from it.
-Points sliver(Point from, std::int64_t length, std::int64_t one, Random& random) {
-  const Point to{from.x + random.range(-length, length) * one, from.y + random.range(-length, length) * one};
-  return {{from, to, {(from.x + to.x) / 2 + random.range(-2, 2), (from.y + to.y) / 2 + random.range(-2, 2)}}};
-}
-
-class TriangleStimulus : public Stimulus {
+class BlockStimulus : public Stimulus {
  public:
-  TriangleStimulus(const WalkerParameters& parameters, std::uint64_t seed)
+  BlockStimulus(const TileWalkerParameters& parameters, std::uint64_t seed)
       : parameters_(parameters),
         random_(seed),
-        payload_(seed),
-        words_(parameters.widths()),
-        job_words_(words_for(packed_bits<TileJob>(parameters.widths()))) {}
+        slots_(seed),
+        words_(words_for(packed_bits<TileJob>(parameters.sizes.widths()))) {}
 
   void reference(std::span<const std::uint32_t> packet, Scoreboard& scoreboard) final {
-    const Walk walk = reference_walk(packet, slot_, parameters_);
-    for (const TileJob& job : walk.jobs) {
-      pack(job, parameters_.widths(), job_words_);
-      scoreboard.expect(job_words_);
+    const Widths widths = parameters_.sizes.widths();
+    for (const TileJob& job : tile_jobs(unpack<BlockJob>(packet, widths), parameters_)) {
+      pack(job, widths, words_);
+      scoreboard.expect(words_);
+      ++jobs_;
     }
-    slot_ = static_cast<std::uint8_t>(slot_ + (walk.jobs.empty() ? 0 : 1));
-    jobs_ += walk.jobs.size();
   }
-  void reset() final { slot_ = 0; }
 
  protected:
-  /// The triangle, with bits of their own in equation and state.
-  void fill(const SetupTriangle& triangle, std::span<std::uint32_t> packet) {
-    const Widths widths = parameters_.widths();
-    pack(to_packet(triangle, parameters_.walker(), parameters_.tile_size), widths,
-         packet.first(words_.triangle));
-    randomise(packet.subspan(words_.triangle, words_.equation), packed_bits<DepthEquationPacket>(widths));
-    randomise(packet.last(words_.state), packed_bits<DrawStatePacket>(widths));
+  void fill(BlockJob block, std::span<std::uint32_t> packet) {
+    block.slot = static_cast<std::uint8_t>(slots_.bits());
+    pack(block, parameters_.sizes.widths(), packet);
   }
 
-  WalkerParameters parameters_;
+  TileWalkerParameters parameters_;
   Random random_;
-  Random payload_;          ///< of what only passes through: triangles do not depend on its width
-  std::uint64_t jobs_ = 0;  ///< that the triangles taken so far have given
+  Random slots_;
+  std::uint64_t jobs_ = 0;  ///< that the blocks offered so far have given
 
  private:
-  void randomise(std::span<std::uint32_t> words, int bits) {
-    for (std::uint32_t& word : words) {
-      word = static_cast<std::uint32_t>(payload_.bits());
-    }
-    if (bits % 32 != 0) {
-      words.back() &= (1u << bits % 32) - 1;
-    }
-  }
-
-  InputWords words_;
-  std::vector<std::uint32_t> job_words_;
-  std::uint8_t slot_ = 0;
+  std::vector<std::uint32_t> words_;
 };
 
-class RandomStimulus final : public TriangleStimulus {
+class RandomStimulus final : public BlockStimulus {
  public:
-  RandomStimulus(const WalkerParameters& parameters, std::uint64_t seed, std::uint64_t jobs)
-      : TriangleStimulus(parameters, seed), wanted_(jobs) {}
+  RandomStimulus(const TileWalkerParameters& parameters, std::uint64_t seed, std::uint64_t jobs)
+      : BlockStimulus(parameters, seed), wanted_(jobs) {}
 
   bool next(std::span<std::uint32_t> packet) override {
     if (jobs_ >= wanted_) {
       return false;
     }
-    fill(random_triangle(parameters_, random_), packet);
-    return true;
-  }
-
- private:
-  std::uint64_t wanted_;
-};
-
-class ListStimulus final : public TriangleStimulus {
- public:
-  ListStimulus(const WalkerParameters& parameters, std::uint64_t seed, std::vector<SetupTriangle> triangles)
-      : TriangleStimulus(parameters, seed), triangles_(std::move(triangles)) {}
-
-  bool next(std::span<std::uint32_t> packet) override {
-    if (next_ == triangles_.size()) {
-      return false;
+    while (next_ == blocks_.size()) {
+      next_ = 0;
+      draw_blocks();
     }
-    fill(triangles_[next_++], packet);
+    fill(blocks_[next_++], packet);
     return true;
   }
 
  private:
-  std::vector<SetupTriangle> triangles_;
+  void draw_blocks() {
+    const std::array<SetupTriangle, 1> triangle{random_triangle(parameters_.sizes, random_)};
+    blocks_ = block_jobs(triangle, parameters_.sizes);
+    const std::size_t all = blocks_.size();
+    std::erase_if(blocks_, [&](const BlockJob&) { return random_.below(all) >= kMostBlocks; });
+    for (BlockJob& block : blocks_) {
+      block.tiles = random_part(block.tiles, random_);
+    }
+  }
+
+  std::uint64_t wanted_;
+  std::vector<BlockJob> blocks_;
   std::size_t next_ = 0;
 };
 
-/// Vertices of one of the kinds that matter.
-Points random_points(const WalkerParameters& parameters, Random& random) {
-  const std::int64_t one = std::int64_t{1} << parameters.sub_pixel_bits;
-  const std::int64_t tile = parameters.tile_size * one;
-  const std::int64_t block = parameters.block_size * one;
-  const auto around = [&](Point centre, std::int64_t reach) {
-    return Point{centre.x + random.range(-reach, reach), centre.y + random.range(-reach, reach)};
-  };
-  const auto all_around = [&](Point centre, std::int64_t reach) {
-    return Points{{around(centre, reach), around(centre, reach), around(centre, reach)}};
-  };
-  const auto coordinate = [&] {
-    switch (random.below(4)) {
-      case 0:  // edges of the screen
-        return (random.below(2) == 0 ? 0 : kScreen) * one + random.range(-tile, tile);
-      default:
-        return random.range(0, kScreen * one);
+class ListStimulus final : public BlockStimulus {
+ public:
+  ListStimulus(const TileWalkerParameters& parameters, std::uint64_t seed, std::vector<BlockJob> blocks)
+      : BlockStimulus(parameters, seed), blocks_(std::move(blocks)) {}
+
+  bool next(std::span<std::uint32_t> packet) override {
+    if (next_ == blocks_.size()) {
+      return false;
     }
-  };
-  const Point centre{coordinate(), coordinate()};
-  switch (random.below(10)) {
-    case 0:
-      return all_around(centre, one);
-    case 1:
-      return all_around(centre, tile / 2);
-    case 2:
-      return all_around(centre, 2 * tile);
-    case 3:
-      return all_around(centre, block);
-    case 4:
-      return all_around(centre, 3 * block);
-    case 5:
-      return sliver(centre, 4 * parameters.tile_size, one, random);
-    case 6: {  // vertices on pixel centres at the edges of tiles: edges along the samples of their borders
-      Points v;
-      const std::int64_t x = centre.x / block * block;
-      const std::int64_t y = centre.y / block * block;
-      for (Point& p : v) {
-        p = {x + random.range(-4, 4) * tile + random.range(-1, 1) * one + one / 2,
-             y + random.range(-4, 4) * tile + random.range(-1, 1) * one + one / 2};
-      }
-      return v;
-    }
-    case 7: {  // a right angle there
-      const std::int64_t x = centre.x / tile * tile + random.range(-1, 0) * one + one / 2;
-      const std::int64_t y = centre.y / tile * tile + random.range(-1, 0) * one + one / 2;
-      return {{{x, y},
-               {x + random.range(-4, 4) * tile + random.range(0, 2) * one, y},
-               {x, y + random.range(-4, 4) * tile + random.range(0, 2) * one}}};
-    }
-    case 8:
-      return all_around(centre, 40 * block);
-    default: {  // corners of the guard band, or close to them
-      const std::int64_t limit = kScreen * 2 * one;
-      Points v;
-      for (Point& p : v) {
-        p = {(random.below(2) == 0 ? -limit : limit) + random.range(-one, one),
-             (random.below(2) == 0 ? -limit : limit) + random.range(-one, one)};
-      }
-      return v;
-    }
+    fill(blocks_[next_++], packet);
+    return true;
   }
-}
 
-/// Of the bounds of a random triangle, unless it is as large as the screen: some blocks and a bit.
-std::int64_t most_tiles(const WalkerParameters& parameters) {
-  const std::int64_t side = parameters.block_size / parameters.tile_size;
-  return std::max<std::int64_t>(6 * side * side, 400);
-}
-
-/// A window on the triangle: a part of its bounds, long or as wide as two blocks.
-PixelRect random_window(const PixelRect& bounds, const WalkerParameters& parameters, Random& random) {
-  const std::int64_t width = std::max(10, 2 * parameters.block_size / parameters.tile_size + 2);
-  const std::int64_t length = std::max(width, most_tiles(parameters) / width);
-  const bool tall = random.below(2) == 0;
-  const auto cut = [&](std::int32_t first, std::int32_t last, std::int64_t tiles, std::int32_t& low,
-                       std::int32_t& high) {
-    low = static_cast<std::int32_t>(random.range(first, last));
-    high = static_cast<std::int32_t>(
-        std::min(low + random.range(0, tiles * parameters.tile_size - 1), kScreen - 1));
-  };
-  PixelRect window;
-  cut(bounds.x_first, bounds.x_last, tall ? width : length, window.x_first, window.x_last);
-  cut(bounds.y_first, bounds.y_last, tall ? length : width, window.y_first, window.y_last);
-  return window;
-}
-
-std::int64_t tiles_of(const PixelRect& bounds, int tile_size) {
-  return std::int64_t{bounds.x_last / tile_size - bounds.x_first / tile_size + 1} *
-         (bounds.y_last / tile_size - bounds.y_first / tile_size + 1);
-}
-
-/// Setup starts with the topmost vertex, which leaves an edge few directions; the walk takes any.
-void turn_edges(SetupTriangle& triangle, std::uint64_t places) {
-  const auto first = triangle.edge.begin() + static_cast<std::ptrdiff_t>(places % 3);
-  std::rotate(triangle.edge.begin(), first, triangle.edge.end());
-}
-
-/// A triangle as large as a large screen, somewhere on it.
-std::optional<SetupTriangle> full_screen(const WalkerParameters& parameters, Random& random) {
-  const std::int64_t one = std::int64_t{1} << parameters.sub_pixel_bits;
-  Points v;
-  for (Point& p : v) {
-    p = {random.range(-kFullScreen, 2 * kFullScreen) * one,
-         random.range(-kFullScreen, 2 * kFullScreen) * one};
-  }
-  return set_up(v, {0, 0, kFullScreen - 1, kFullScreen - 1}, false, parameters);
-}
+ private:
+  std::vector<BlockJob> blocks_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
-std::vector<SetupTriangle> directed_triangles(const WalkerParameters& parameters) {
-  Triangles out(parameters);
-  const std::int64_t tile = parameters.tile_size;
-  const std::int64_t block = parameters.block_size;
-  const auto last = static_cast<std::int32_t>(kScreen - 1);
-  // One pixel at every place of a block's first row, first column and diagonal.
-  for (std::int64_t i = 0; i <= block; ++i) {
-    out.add_square(block + i, 2 * block, 1);
-    out.add_square(block, 2 * block + i, 1);
-    out.add_square(block + i, 2 * block + i, 1);
-  }
-  // Bounds of every size around a block border, and aligned to it.
-  for (std::int64_t size = 1; size <= block + tile; size += size < 4 ? 1 : tile / 2) {
-    out.add_square(2 * block - 1, 2 * block - 1, size);
-    out.add_square(2 * block, 2 * block, size);
-    out.add_square(2 * block + tile, 2 * block - tile, size);
-  }
-  // Blocks that are accepted, reject, and both.
-  out.add_square(block - tile, block + tile, 3 * block);
-  // Edges of every sign, on samples and between them.
-  for (const std::int64_t size : {std::int64_t{1}, tile - 1, 2 * tile + 1}) {
-    add_turns(out, 4 * block, 4 * block, size);
-    add_turns(out, 4 * block - 1, 4 * block - 1, size);
-  }
-  add_turns(out, 4 * block, 4 * block, block);
-  for (const std::int64_t size : {std::int64_t{3}, tile, 2 * block}) {
-    add_uncovered(out, 4 * block - 2, 4 * block - 2, size);
-  }
-  // The edges of the largest screen.
-  for (const std::int64_t x : {std::int64_t{0}, kScreen - 3 * tile}) {
-    for (const std::int64_t y : {std::int64_t{0}, kScreen - 3 * tile}) {
-      out.add_square(x, y, 3 * tile);
-    }
-  }
-  // The guard band, through windows at the corners and in the middle of the screen.
-  const std::int64_t far = 2 * kScreen;
-  for (const std::int32_t at : {0, 8191, last - 99}) {
-    const PixelRect window{at, last - 99 - at / 2, at + 99, last - at / 2};
-    out.add({{{-far, -far}, {far, -far}, {-far, far}}}, {}, window);
-    out.add({{{far, -far}, {far, far}, {-far, far}}}, {}, window);
-    out.add({{{-far, -far}, {far, -far}, {far, far}}}, {}, window);
-    out.add({{{-far, -far}, {far, far}, {-far, far}}}, {}, window);
-  }
-  out.add({{{-far, -far}, {far, -far}, {-far, far}}}, {}, {last, last, last, last});
-  out.add({{{-far, -far}, {far, -far}, {-far, far}}}, {}, {0, 0, last, 0});
-  out.add({{{-far, -far}, {far, -far}, {-far, far}}}, {}, {0, 0, 0, last});
-  std::vector<SetupTriangle> triangles = out.take();
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    turn_edges(triangles[i], i);
-  }
-  // Edges along the samples at the borders of tiles, and blocks that are accepted, by each of the edges.
-  add_turns(out, 4 * block, 4 * block, tile);
-  add_turns(out, 4 * block - 1, 4 * block - 1, tile);
-  out.add_square(block, block, 3 * block);
-  for (SetupTriangle& triangle : out.take()) {
-    for (int i = 0; i < 3; ++i) {
-      turn_edges(triangle, 1);
-      triangles.push_back(triangle);
-    }
-  }
-  return triangles;
-}
-
-SetupTriangle random_triangle(const WalkerParameters& parameters, Random& random) {
-  std::optional<SetupTriangle> triangle;
-  while (!triangle) {
-    if (random.below(kLargeEvery) == 0) {
-      triangle = full_screen(parameters, random);
-      continue;
-    }
-    const Points v = random_points(parameters, random);
-    const bool bottom_left_rule = random.below(2) == 0;
-    triangle = set_up(v, screen(), bottom_left_rule, parameters);
-    const bool cut = random.below(8) == 0;
-    if (triangle && (cut || tiles_of(triangle->bounds, parameters.tile_size) > most_tiles(parameters))) {
-      triangle = set_up(v, random_window(triangle->bounds, parameters, random), bottom_left_rule, parameters);
-    }
-  }
-  turn_edges(*triangle, random.below(3));
-  return *triangle;
-}
-
-std::vector<SetupTriangle> frame_triangles(const std::string& file, const WalkerParameters& parameters) {
-  const Frame frame = load(file);
-  Config config;
-  config.raster.sub_pixel_bits = parameters.sub_pixel_bits;
-  std::vector<SetupTriangle> triangles;
-  std::vector<ScreenTriangle> batch;
-  FrontEndCounters counters;
-  for (const Command& command : frame.commands) {
-    if (command.kind != CommandKind::kDraw || command.has(Flag::kNotFilled)) {
-      continue;
-    }
-    const Target& target = frame.targets[command.target];
-    const FrontEnd front_end(frame, command, DepthFormat::kNone, parameters.sub_pixel_bits);
-    const SetupState state = setup_state(command, target, DepthFormat::kNone, config);
-    for (std::uint32_t i = 0; i < command.index_count / 3; ++i) {
-      batch.clear();
-      front_end.process(i, batch, counters);
-      for (const ScreenTriangle& triangle : batch) {
-        SetupTriangle out;
-        if (setup(triangle, state, out) == SetupVerdict::kDrawn) {
-          triangles.push_back(out);
-        }
+std::vector<BlockJob> block_jobs(std::span<const SetupTriangle> triangles, const WalkSizes& sizes) {
+  struct Sink {
+    std::vector<BlockJob> jobs;
+    void block(const BlockJob& job, std::uint64_t /*touched*/) {
+      if (job.tiles != 0) {
+        jobs.push_back(job);
       }
     }
+  };
+  const WalkerConfig walker{.sub_pixel_bits = sizes.sub_pixel_bits, .block_size = sizes.block_size};
+  Sink sink;
+  for (const SetupTriangle& triangle : triangles) {
+    with_tile_size(sizes.tile_size, [&](auto size) { block_walker<size()>(triangle, walker, 0, sink); });
   }
-  return triangles;
+  return std::move(sink.jobs);
 }
 
-std::vector<SetupTriangle> square(int x, int y, int size, const WalkerParameters& parameters) {
-  Triangles out(parameters);
-  out.add_square(x, y, size);
-  return out.take();
+std::vector<TileJob> tile_jobs(const BlockJob& block, const TileWalkerParameters& parameters) {
+  struct Sink {
+    std::vector<TileJob> jobs;
+    void tile(const TileJob& job, bool /*whole*/) { jobs.push_back(job); }
+  };
+  Sink sink;
+  with_tile_size(parameters.sizes.tile_size,
+                 [&](auto size) { tile_walker<size()>(block, parameters.walker(), sink); });
+  return std::move(sink.jobs);
 }
 
-std::unique_ptr<Stimulus> random_stimulus(const WalkerParameters& parameters, std::uint64_t seed,
+std::unique_ptr<Stimulus> random_stimulus(const TileWalkerParameters& parameters, std::uint64_t seed,
                                           std::uint64_t jobs) {
   return std::make_unique<RandomStimulus>(parameters, seed, jobs);
 }
 
-std::unique_ptr<Stimulus> list_stimulus(const WalkerParameters& parameters, std::uint64_t seed,
-                                        std::vector<SetupTriangle> triangles) {
-  return std::make_unique<ListStimulus>(parameters, seed, std::move(triangles));
+std::unique_ptr<Stimulus> list_stimulus(const TileWalkerParameters& parameters, std::uint64_t seed,
+                                        std::vector<BlockJob> blocks) {
+  return std::make_unique<ListStimulus>(parameters, seed, std::move(blocks));
 }
 
 }  // namespace halfspace::tb

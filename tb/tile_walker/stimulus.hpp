@@ -1,38 +1,30 @@
-/// Triangles for the tile_walker bench, all of them made by the C++ setup().
+/// What the bench of tile_walker sends: the blocks that triangles of walk_triangles.hpp touch.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
-#include "common/random.hpp"
 #include "common/stream_bench.hpp"
 #include "halfspace/units/packets.hpp"
-#include "reference_walk.hpp"
+#include "parameters.hpp"
 
 namespace halfspace::tb {
 
-/// Cases that a random search might miss: one pixel at every place of a block, bounds at the edges of blocks
-/// and of the screen, edges along rows and columns of samples, triangles that cover nothing, the guard band.
-[[nodiscard]] std::vector<SetupTriangle> directed_triangles(const WalkerParameters& parameters);
+/// The block jobs that the C++ block_walker gives for triangles, in their order.
+[[nodiscard]] std::vector<BlockJob> block_jobs(std::span<const SetupTriangle> triangles,
+                                               const WalkSizes& sizes);
 
-/// One triangle of a random kind: of a pixel, of a tile, of blocks, slivers, on pixel centres, at the guard
-/// band, large, at the edges of the screen; some of them cut by a scissor.
-[[nodiscard]] SetupTriangle random_triangle(const WalkerParameters& parameters, Random& random);
+/// The tile jobs of a block, by model/halfspace/units/tile_walker.hpp.
+[[nodiscard]] std::vector<TileJob> tile_jobs(const BlockJob& block, const TileWalkerParameters& parameters);
 
-/// The triangles that setup gives for a frame (.ptf and the like), in their order.
-[[nodiscard]] std::vector<SetupTriangle> frame_triangles(const std::string& file,
-                                                         const WalkerParameters& parameters);
-
-/// Two triangles of `size` pixels square that cover it.
-[[nodiscard]] std::vector<SetupTriangle> square(int x, int y, int size, const WalkerParameters& parameters);
-
-/// Random triangles until they have given `jobs` tile jobs.
-[[nodiscard]] std::unique_ptr<Stimulus> random_stimulus(const WalkerParameters& parameters,
+/// Blocks of random triangles until they have given `jobs` tile jobs. Many blocks have only some of their
+/// tiles, or one: masks that block_walker gives seldom, or never.
+[[nodiscard]] std::unique_ptr<Stimulus> random_stimulus(const TileWalkerParameters& parameters,
                                                         std::uint64_t seed, std::uint64_t jobs);
-/// Equations and states are random in either.
-[[nodiscard]] std::unique_ptr<Stimulus> list_stimulus(const WalkerParameters& parameters, std::uint64_t seed,
-                                                      std::vector<SetupTriangle> triangles);
+/// Slots are random in either.
+[[nodiscard]] std::unique_ptr<Stimulus> list_stimulus(const TileWalkerParameters& parameters,
+                                                      std::uint64_t seed, std::vector<BlockJob> blocks);
 
 }  // namespace halfspace::tb

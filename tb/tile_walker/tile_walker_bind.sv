@@ -1,14 +1,13 @@
 // Puts the handshake law on both links of tile_walker.
 
 bind tile_walker handshake_checker #(
-  .Width ($bits(raster_pkg::setup_triangle_t) + $bits(raster_pkg::depth_equation_t)
-          + $bits(raster_pkg::draw_state_t))
-) u_triangle_law (
+  .Width ($bits(raster_pkg::block_job_t))
+) u_block_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
-  .valid_i   (triangle_valid_i),
-  .ready_i   (triangle_ready_o),
-  .payload_i ({triangle_i, equation_i, state_i})
+  .valid_i   (block_valid_i),
+  .ready_i   (block_ready_o),
+  .payload_i (block_i)
 );
 
 bind tile_walker handshake_checker #(

@@ -1,9 +1,9 @@
-/// The cycle table of docs/units/tile_walker.md as the pins that follow from it, S being the step interval:
+/// The cycle table of docs/units/block_walker.md as the pins that follow from it:
 ///
 ///     accept(m)  = max(visible(m), done(m-1))
-///     x(n)       = max(x(n-1) + (r + 1) S, e(n - fifo) + 1)    after r steps without a job
-///     visible(n) = x(n) + 2
-///     done(m)    = x(last job) + S * (steps after it)
+///     t          = max(t of the step before + 1, or accept(m) + 1, a credit is usable)
+///     visible(n) = t + 2             of a block that leaves; only such a one uses the credit
+///     done(m)    = t of the last step
 ///
 /// and the slot of a triangle is written in the cycle after accept(m).
 #pragma once
@@ -13,17 +13,17 @@
 #include <optional>
 #include <vector>
 
+#include "block_coverage.hpp"
 #include "common/unit_timing.hpp"
 #include "reference_walk.hpp"
-#include "walk_coverage.hpp"
 
 namespace halfspace::tb {
 
-class WalkTiming final : public UnitTiming {
+class BlockTiming final : public UnitTiming {
  public:
   /// Counts what it sees in `coverage`.
-  WalkTiming(const WalkerParameters& parameters, WalkCoverage& coverage)
-      : parameters_(parameters), words_(parameters.widths()), coverage_(coverage) {}
+  BlockTiming(const BlockWalkerParameters& parameters, BlockCoverage& coverage)
+      : parameters_(parameters), words_(parameters.sizes.widths()), coverage_(coverage) {}
 
   std::optional<Failure> cycle(const UnitPins& pins) override;
   void clear() override;
@@ -31,27 +31,24 @@ class WalkTiming final : public UnitTiming {
  private:
   /// The triangle on its walk.
   struct Triangle {
-    std::vector<WalkStep> steps;
-    std::size_t first = 0;  ///< the step after that of the last job
-    std::size_t job = 0;    ///< the step of the next job, or the end
-    std::uint64_t due = 0;  ///< cycle in which that step ends, but for credits; without a job: the walk
-    bool drawn = false;     ///< has given out a job
-    bool waited = false;    ///< this step, for a credit
+    std::vector<BlockStep> steps;
+    std::size_t next = 0;
+    bool drawn = false;   ///< has given out a block
+    bool waited = false;  ///< the next step, for a credit
+    [[nodiscard]] bool done() const { return next == steps.size(); }
   };
 
-  void next_job(std::uint64_t from);
-  void give_out(std::uint64_t cycle);
+  void step(std::uint64_t cycle);
   [[nodiscard]] std::optional<Failure> compare(const UnitPins& pins, bool ready) const;
   [[nodiscard]] std::optional<Failure> compare_slot(const UnitPins& pins) const;
   void take(const UnitPins& pins);
 
-  WalkerParameters parameters_;
+  BlockWalkerParameters parameters_;
   InputWords words_;
-  WalkCoverage& coverage_;
+  BlockCoverage& coverage_;
   int credits_ = 0;
   bool after_reset_ = true;  ///< ready comes from a register that has yet to rise
   bool was_reset_ = false;   ///< at least once
-  bool waiting_ = false;
   std::optional<Triangle> triangle_;
   std::deque<std::uint64_t> visible_at_;
   std::uint64_t left_ = 0;

@@ -1,4 +1,4 @@
-#include "walk_timing.hpp"
+#include "block_timing.hpp"
 
 #include <fmt/format.h>
 
@@ -11,17 +11,15 @@ constexpr std::uint64_t kStepLatency = 2;  // from the step to visible
 
 }  // namespace
 
-std::optional<Failure> WalkTiming::cycle(const UnitPins& pins) {
-  waiting_ = false;
-  if (triangle_ && triangle_->job < triangle_->steps.size() && triangle_->due <= pins.cycle) {
+std::optional<Failure> BlockTiming::cycle(const UnitPins& pins) {
+  if (triangle_) {
     if (credits_ > 0) {
-      give_out(pins.cycle);
+      step(pins.cycle);
     } else {
-      waiting_ = true;
       triangle_->waited = true;
     }
   }
-  const bool done = triangle_ && triangle_->job == triangle_->steps.size() && triangle_->due == pins.cycle;
+  const bool done = triangle_ && triangle_->done();
   const bool ready = !after_reset_ && (!triangle_ || done);
   after_reset_ = false;
   if (std::optional<Failure> failure = compare(pins, ready)) {
@@ -32,7 +30,7 @@ std::optional<Failure> WalkTiming::cycle(const UnitPins& pins) {
   }
   written_.clear();
   if (done) {
-    coverage_.triangle_done(triangle_->steps.back().kind, pins.in_valid);
+    coverage_.triangle_done(triangle_->steps.back(), pins.in_valid);
     slot_ = static_cast<std::uint8_t>(slot_ + (triangle_->drawn ? 1 : 0));
     triangle_.reset();
   } else if (ready && pins.in_valid) {
@@ -49,44 +47,34 @@ std::optional<Failure> WalkTiming::cycle(const UnitPins& pins) {
   return std::nullopt;
 }
 
-void WalkTiming::clear() {
+void BlockTiming::clear() {
   if (was_reset_) {
-    coverage_.reset(triangle_.has_value(), waiting_);
+    coverage_.reset(triangle_.has_value(), triangle_ && triangle_->waited);
   }
   was_reset_ = true;
   credits_ = parameters_.fifo_depth;
   after_reset_ = true;
-  waiting_ = false;
   triangle_.reset();
   visible_at_.clear();
   slot_ = 0;
   written_.clear();
 }
 
-/// Steps that end in `from` or before are done.
-void WalkTiming::next_job(std::uint64_t from) {
-  const auto begin = triangle_->steps.begin() + static_cast<std::ptrdiff_t>(triangle_->first);
-  const auto job =
-      std::find_if(begin, triangle_->steps.end(), [](const WalkStep& step) { return gives_out(step.kind); });
-  const bool found = job != triangle_->steps.end();
-  triangle_->job = static_cast<std::size_t>(job - triangle_->steps.begin());
-  const auto steps = static_cast<std::uint64_t>(job - begin) + (found ? 1 : 0);
-  triangle_->due = from + steps * static_cast<std::uint64_t>(parameters_.step_interval);
-}
-
-void WalkTiming::give_out(std::uint64_t cycle) {
+void BlockTiming::step(std::uint64_t cycle) {
+  const BlockStep& step = triangle_->steps[triangle_->next];
   if (triangle_->waited) {
-    coverage_.waited(triangle_->job == 0, triangle_->job + 1 == triangle_->steps.size());
+    coverage_.waited(triangle_->next == 0, triangle_->next + 1 == triangle_->steps.size(), step.leaves());
   }
   triangle_->waited = false;
-  triangle_->drawn = true;
-  --credits_;
-  visible_at_.push_back(cycle + kStepLatency);
-  triangle_->first = triangle_->job + 1;
-  next_job(cycle);
+  ++triangle_->next;
+  if (step.leaves()) {
+    triangle_->drawn = true;
+    --credits_;
+    visible_at_.push_back(cycle + kStepLatency);
+  }
 }
 
-std::optional<Failure> WalkTiming::compare(const UnitPins& pins, bool ready) const {
+std::optional<Failure> BlockTiming::compare(const UnitPins& pins, bool ready) const {
   if (pins.in_ready != ready) {
     return Failure{FailureKind::kTiming, pins.cycle,
                    fmt::format("input ready is {:d}, with {} of {} credits and {} it should be {:d}",
@@ -104,7 +92,7 @@ std::optional<Failure> WalkTiming::compare(const UnitPins& pins, bool ready) con
                      : fmt::format("packet {} valid before cycle {}", left_, visible_at_.front())};
 }
 
-std::optional<Failure> WalkTiming::compare_slot(const UnitPins& pins) const {
+std::optional<Failure> BlockTiming::compare_slot(const UnitPins& pins) const {
   const bool write = pins.side[0] != 0;
   if (write == written_.empty()) {
     return Failure{FailureKind::kTiming, pins.cycle,
@@ -124,11 +112,9 @@ std::optional<Failure> WalkTiming::compare_slot(const UnitPins& pins) const {
   return std::nullopt;
 }
 
-void WalkTiming::take(const UnitPins& pins) {
-  Walk walk = reference_walk(pins.input, slot_, parameters_);
-  coverage_.taken(pins.input, walk, slot_);
-  triangle_ = Triangle{.steps = std::move(walk.steps)};
-  next_job(pins.cycle);
+void BlockTiming::take(const UnitPins& pins) {
+  triangle_ = Triangle{.steps = reference_walk(pins.input, slot_, parameters_)};
+  coverage_.taken(triangle_->steps, slot_);
   const std::span<const std::uint32_t> passed_on = pins.input.subspan(words_.triangle);
   written_.assign(passed_on.begin(), passed_on.end());
 }

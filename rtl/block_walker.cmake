@@ -1,0 +1,17 @@
+# Every pair of sizes; the other parameters take turns.
+set(turn 0)
+foreach(tile_size 4 8 16)
+  foreach(block_size 8 16 32 64)
+    math(EXPR row_tiles "${block_size} / ${tile_size}")
+    if(row_tiles MATCHES "^[248]$")
+      math(EXPR sub_pixel_bits "4 + ${turn} % 5")
+      math(EXPR turn "${turn} + 1")
+      set(name t${tile_size}_b${block_size}_s${sub_pixel_bits})
+      set(sizes -DHALFSPACE_TILE_SIZE=${tile_size} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits}
+          -DHALFSPACE_BLOCK_SIZE=${block_size})
+      halfspace_lint(${name} ${sizes})
+      halfspace_lint(${name}_f2_noreject ${sizes} -GFifoDepth=2 -GTrivialReject=1'b0)
+      halfspace_lint(${name}_f8_nodfg ${sizes} -GFifoDepth=8 -fno-dfg)
+    endif()
+  endforeach()
+endforeach()

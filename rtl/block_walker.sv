@@ -1,0 +1,189 @@
+// From a triangle to the blocks that it may touch, each with a mask of its tiles: one block a cycle.
+//
+// The walk visits the blocks of the bounds in row order. A step tests all tiles of a block at once, and leaves out those
+// all of whose samples are outside one edge. A block that is left with no tile goes nowhere. Whether it is, shows only
+// at the end of the step, so every step waits for a slot of the output FIFO, and nothing stalls behind it. The next
+// triangle is loaded in the cycle of the last step of this one.
+
+module block_walker
+  import raster_pkg::*;
+#(
+  /// Slots of the output FIFO, 2 or more, each as wide as block_job_t. A block takes two cycles to the FIFO's output, so
+  /// that with 2 blocks cannot leave in every cycle.
+  parameter int unsigned FifoDepth = 4,
+  /// 0: every tile that the bounds touch is in the mask. Saves most of the gates.
+  parameter bit TrivialReject = 1'b1
+) (
+  input  logic                clk_i,
+  input  logic                rst_ni,
+
+  // setup: E at the first pixel of the first block of the bounds
+  input  logic                triangle_valid_i,
+  output logic                triangle_ready_o,
+  input  setup_triangle_t     triangle_i,
+  input  depth_equation_t     equation_i,
+  input  draw_state_t         state_i,
+
+  // What early_z keeps of each triangle: written in the cycle after it was taken.
+  output logic                slot_write_o,
+  output logic [SlotBits-1:0] slot_o,
+  output depth_equation_t     slot_equation_o,
+  output draw_state_t         slot_state_o,
+
+  // tile_walker
+  output logic                block_valid_o,
+  input  logic                block_ready_i,
+  output block_job_t          block_o,
+
+  // What the cycle is spent on; whether nothing is left to do.
+  output block_walker_activity_e activity_o,
+  output logic                idle_o
+);
+
+  localparam int unsigned RowTiles = BlockSize / TileSize;
+
+  if (!(RowTiles inside {2, 4, 8}) || BlockSize != 1 << BlockLog2) begin : gen_illegal_block
+    $error("HALFSPACE_BLOCK_SIZE must be 2, 4 or 8 times HALFSPACE_TILE_SIZE, 8 to 64");
+  end
+
+  logic load;
+  assign load = triangle_valid_i & triangle_ready_o;
+
+  // The walk.
+  logic step, row_end, last_block;
+
+  block_job_t            job_d;
+  logic [BlockTiles-1:0] touched;
+  logic [BlockTiles-1:0] outside [EdgeCount];
+
+  block_position u_position (
+    .clk_i     (clk_i),
+    .load_i    (load),
+    .x_first_i (triangle_i.x_first),
+    .x_last_i  (triangle_i.x_last),
+    .y_first_i (triangle_i.y_first),
+    .y_last_i  (triangle_i.y_last),
+    .advance_i (step),
+    .row_end_o (row_end),
+    .last_o    (last_block),
+    .block_x_o (job_d.block_x),
+    .block_y_o (job_d.block_y),
+    .x_first_o (job_d.x_first),
+    .x_last_o  (job_d.x_last),
+    .y_first_o (job_d.y_first),
+    .y_last_o  (job_d.y_last),
+    .touched_o (touched)
+  );
+
+  for (genvar i = 0; i < EdgeCount; i++) begin : gen_edge
+    block_edge #(
+      .TrivialReject (TrivialReject)
+    ) u_edge (
+      .clk_i     (clk_i),
+      .load_i    (load),
+      .edge_i    (triangle_i.e[i]),
+      .a_i       (triangle_i.a[i]),
+      .b_i       (triangle_i.b[i]),
+      .advance_i (step),
+      .row_end_i (row_end),
+      .edge_o    (job_d.e[i]),
+      .a_o       (job_d.a[i]),
+      .b_o       (job_d.b[i]),
+      .outside_o (outside[i])
+    );
+  end
+
+  always_comb begin
+    job_d.tiles = touched;
+    for (int unsigned i = 0; i < EdgeCount; i++) begin
+      job_d.tiles &= ~outside[i];
+    end
+  end
+
+  // A step waits for a credit, which only a block that leaves uses.
+  logic busy_q, idle_q;  // neither in reset
+  logic credit, emit, done, fifo_empty;
+
+  assign step = busy_q & credit;
+  assign emit = step & (|job_d.tiles);
+  assign done = step & last_block;
+
+  assign triangle_ready_o = idle_q | done;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      busy_q <= 1'b0;
+      idle_q <= 1'b0;
+    end else begin
+      busy_q <= load | (busy_q & ~done);
+      idle_q <= ~load & (~busy_q | done);
+    end
+  end
+
+  // A triangle that has given out a block keeps its slot; the others leave theirs to the next.
+  logic [SlotBits-1:0] slot_q;
+  logic                slot_used_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      slot_q      <= '0;
+      slot_used_q <= 1'b0;
+    end else if (done) begin
+      slot_q      <= slot_used_q || emit ? slot_q + SlotBits'(1) : slot_q;
+      slot_used_q <= 1'b0;
+    end else if (emit) begin
+      slot_used_q <= 1'b1;
+    end
+  end
+
+  assign job_d.slot = slot_q;
+
+  pipe_register #(
+    .Width ($bits(depth_equation_t) + $bits(draw_state_t))
+  ) u_slot (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (load),
+    .data_i  ({equation_i, state_i}),
+    .valid_o (slot_write_o),
+    .data_o  ({slot_equation_o, slot_state_o})
+  );
+
+  assign slot_o = slot_q;
+
+  block_job_t job_q;
+  logic       job_valid;
+
+  pipe_register #(
+    .Width ($bits(block_job_t))
+  ) u_job (
+    .clk_i   (clk_i),
+    .rst_ni  (rst_ni),
+    .valid_i (emit),
+    .data_i  (job_d),
+    .valid_o (job_valid),
+    .data_o  (job_q)
+  );
+
+  credit_fifo #(
+    .Width ($bits(block_job_t)),
+    .Depth (FifoDepth)
+  ) u_fifo (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .reserve_ready_o (credit),
+    .reserve_i       (emit),
+    .push_i          (job_valid),
+    .data_i          (job_q),
+    .pop_valid_o     (block_valid_o),
+    .pop_ready_i     (block_ready_i),
+    .data_o          (block_o),
+    .empty_o         (fifo_empty)
+  );
+
+  assign activity_o = step     ? BlockWalkerBusy
+                      : busy_q ? BlockWalkerNoCredit
+                      : load   ? BlockWalkerLoad : BlockWalkerNoTriangle;
+  assign idle_o     = ~busy_q & fifo_empty;
+
+endmodule

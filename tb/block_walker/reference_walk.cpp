@@ -1,0 +1,90 @@
+#include "reference_walk.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+#include "halfspace/machine/tile_size.hpp"
+#include "halfspace/units/block_walker.hpp"
+#include "halfspace/units/packing.hpp"
+
+namespace halfspace::tb {
+namespace {
+
+/// The packet has E at the first pixel of the first block of the bounds.
+SetupTriangle to_model(const SetupTrianglePacket& packet, const WalkSizes& sizes) {
+  SetupTriangle triangle;
+  triangle.bounds = {packet.x_first, packet.y_first, packet.x_last, packet.y_last};
+  const std::int64_t x = packet.x_first / sizes.block_size * sizes.block_size;
+  const std::int64_t y = packet.y_first / sizes.block_size * sizes.block_size;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Edge& edge = triangle.edge[i];
+    edge.a = packet.a[i];
+    edge.b = packet.b[i];
+    edge.c = packet.e[i] - ((edge.a * x + edge.b * y) << sizes.sub_pixel_bits);
+  }
+  return triangle;
+}
+
+/// What the unit tells, as steps.
+class StepSink {
+ public:
+  StepSink(const BlockWalkerParameters& parameters, std::vector<BlockStep>& steps)
+      : parameters_(parameters), steps_(steps) {}
+
+  void block(const BlockJob& job, std::uint64_t touched) {
+    BlockStep step{.job = job, .touched = touched};
+    std::uint64_t left = touched;
+    for (std::size_t i = 0; i < 3; ++i) {
+      test(i, step);
+      left &= ~(parameters_.trivial_reject ? step.outside[i] : 0);
+    }
+    if (left != job.tiles) {
+      throw std::logic_error("block_walker.hpp and the corner samples of a tile say different things");
+    }
+    steps_.push_back(step);
+  }
+
+ private:
+  /// Edge i, at the four corner samples of every tile.
+  void test(std::size_t i, BlockStep& step) const {
+    const WalkSizes& sizes = parameters_.sizes;
+    const int row_tiles = sizes.row_tiles();
+    const auto at = [&](std::int64_t x, std::int64_t y) {
+      return step.job.e[i] + ((step.job.a[i] * x + step.job.b[i] * y) << sizes.sub_pixel_bits);
+    };
+    const std::int64_t across = sizes.tile_size - 1;
+    for (std::uint64_t left = step.touched; left != 0; left &= left - 1) {
+      const int tile = std::countr_zero(left);
+      const std::int64_t x = tile % row_tiles * sizes.tile_size;
+      const std::int64_t y = tile / row_tiles * sizes.tile_size;
+      const auto [least, largest] =
+          std::minmax({at(x, y), at(x + across, y), at(x, y + across), at(x + across, y + across)});
+      step.outside[i] |= std::uint64_t{largest < 0} << tile;
+      step.inside[i] |= std::uint64_t{least >= 0} << tile;
+    }
+  }
+
+  const BlockWalkerParameters& parameters_;
+  std::vector<BlockStep>& steps_;
+};
+
+}  // namespace
+
+InputWords::InputWords(const Widths& widths)
+    : triangle(words_for(packed_bits<SetupTrianglePacket>(widths))),
+      equation(words_for(packed_bits<DepthEquationPacket>(widths))),
+      state(words_for(packed_bits<DrawStatePacket>(widths))) {}
+
+std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle, std::uint8_t slot,
+                                      const BlockWalkerParameters& parameters) {
+  const SetupTriangle model =
+      to_model(unpack<SetupTrianglePacket>(triangle, parameters.sizes.widths()), parameters.sizes);
+  std::vector<BlockStep> steps;
+  StepSink sink(parameters, steps);
+  with_tile_size(parameters.sizes.tile_size,
+                 [&](auto size) { block_walker<size()>(model, parameters.walker(), slot, sink); });
+  return steps;
+}
+
+}  // namespace halfspace::tb

@@ -1,0 +1,53 @@
+/// The walk of a triangle over blocks by the C++ definition, as the bench needs it: step by step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/walk_triangles.hpp"
+#include "halfspace/units/link_packets.hpp"
+#include "halfspace/units/packets.hpp"
+#include "halfspace/units/square_edges.hpp"
+
+namespace halfspace::tb {
+
+/// A configuration of the unit: its widths and its parameters.
+struct BlockWalkerParameters {
+  WalkSizes sizes;
+  int fifo_depth = 4;
+  bool trivial_reject = true;
+
+  [[nodiscard]] WalkerConfig walker() const {
+    return {.sub_pixel_bits = sizes.sub_pixel_bits,
+            .block_size = sizes.block_size,
+            .trivial_reject = trivial_reject};
+  }
+};
+
+/// A block of the bounds. Sets of tiles are masks as in BlockJob.
+struct BlockStep {
+  BlockJob job;                            ///< leaves, if it has a tile
+  std::uint64_t touched = 0;               ///< by the bounds
+  std::array<std::uint64_t, 3> outside{};  ///< of those: all samples outside the edge
+  std::array<std::uint64_t, 3> inside{};   ///< all inside
+  [[nodiscard]] bool leaves() const { return job.tiles != 0; }
+};
+
+/// Words of the source's packet: the triangle, then what is only passed on, equation and state.
+struct InputWords {
+  std::size_t triangle = 0;
+  std::size_t equation = 0;
+  std::size_t state = 0;
+  explicit InputWords(const Widths& widths);
+  [[nodiscard]] std::size_t all() const { return triangle + equation + state; }
+};
+
+/// The walk of a triangle packet, by model/halfspace/units/block_walker.hpp. The sets of tiles are made from
+/// all corner samples of each, and must agree with its masks.
+[[nodiscard]] std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle,
+                                                    std::uint8_t slot,
+                                                    const BlockWalkerParameters& parameters);
+
+}  // namespace halfspace::tb
