@@ -85,7 +85,7 @@ TEST_CASE("bench stages: a line for each stage") {
   const Place place;
   const Outcome outcome = place.run("bench stages --repeat 1 " + scene("vkcube.ptf.xz"));
   REQUIRE(outcome.status == 0);
-  for (const char* stage : {"surfaces", "front_end", "setup", "tile_walker", "edge_evaluator",
+  for (const char* stage : {"surfaces", "front_end", "setup", "block_walker", "tile_walker", "edge_evaluator",
                             "quad_generator", "z_test", "pixel_counts", "z_cache", "all"}) {
     CHECK(outcome.out.find("| vkcube | " + std::string(stage) + " | ") != std::string::npos);
   }

@@ -22,7 +22,7 @@ TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
   CHECK(entries(out) == expected);
   const Json stats = read_stats(out);
   CHECK(stats["files"].get<std::set<std::string>>() == expected);
-  CHECK(stats["schema_version"] == 3);
+  CHECK(stats["schema_version"] == 4);
   CHECK(stats["cycles"].is_null());
   CHECK(stats["seed"].is_null());
   CHECK(stats["stalls"].is_null());
@@ -194,8 +194,8 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
               {"unknown", "tile_walker.tile_sise", "tile_walker.tile_size"});
   check_error(place.run("run " + cube + " --set raster.sub_pixel_bits=9"),
               {"raster.sub_pixel_bits", "'9'", "4 to 8"});
-  check_error(place.run("run " + cube + " --set tile_walker.tile_size=16 --set tile_walker.block_size=16"),
-              {"tile_walker.block_size", "16"});
+  check_error(place.run("run " + cube + " --set tile_walker.tile_size=16 --set block_walker.block_size=16"),
+              {"block_walker.block_size", "16"});
   check_error(place.run("run " + cube + " --set late_z"), {"late_z", "KEY=VALUE"});
   check_error(place.run("run " + cube + " --fidelity guess"), {"guess", "functional", "rtl"});
   check_error(place.run("run " + cube + " --quads"), {"--quads", "--out"});
@@ -205,9 +205,10 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   for (const char* stall : {"sink", "sink:10", "sink:10:4:1", "sink:101:4", "sink:-1:4", "sink:10:0",
                             "sink:10:65536", "drain:10:4", "sink:10:", ":10:4"}) {
     CAPTURE(stall);
-    check_error(place.run(timed + " --stall " + stall),
-                {"--stall", stall, "source, setup, tile_walker, edge_evaluator, quad_generator, sink",
-                 "0 to 100", "1 to 65535"});
+    check_error(
+        place.run(timed + " --stall " + stall),
+        {"--stall", stall, "source, setup, block_walker, tile_walker, edge_evaluator, quad_generator, sink",
+         "0 to 100", "1 to 65535"});
   }
   check_error(place.run(timed + " --stall sink:10:4 --stall sink:10:5"),
               {"--stall", "sink:10:5", "given before"});

@@ -242,7 +242,7 @@ TEST_CASE("fast core: windows that a scissor cuts out, in every size of tile and
     CAPTURE(seed(), run);
     Config config;
     config.tile_walker.tile_size = pick(random, {4, 8});
-    config.tile_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
+    config.block_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
     const Watch watch{.keep_visible = true};
     const Frame frame = scissored(random);
     REQUIRE(core_difference(frame, config, watch, nullptr) == "");
@@ -270,11 +270,11 @@ TEST_CASE("fast core: a run that it does not cover is refused or left to the uni
   Config config;
   CHECK(run_functional(frame, config).core == Core::kFast);
   CHECK(run_functional(frame, config, {.core = Core::kReadable}).core == Core::kReadable);
-  config.tile_walker.block_level = false;
+  config.tile_walker.tile_size = 16;
   CHECK(run_functional(frame, config).core == Core::kReadable);
   CHECK_THROWS_WITH(
       run_functional(frame, config, {.core = Core::kFast}),
-      Catch::Contains("tile_walker.block_level = false") && Catch::Contains("legal: auto, readable"));
+      Catch::Contains("tile_walker.tile_size = 16") && Catch::Contains("legal: auto, readable"));
 }
 
 }  // namespace halfspace::testing

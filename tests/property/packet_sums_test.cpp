@@ -18,8 +18,6 @@ class Adder final : public PacketObserver {
  public:
   using Place = std::tuple<std::uint32_t, int, int>;
 
-  explicit Adder(int tile_size) : tile_size_(tile_size) {}
-
   [[nodiscard]] bool wants_quads() const override { return true; }
   [[nodiscard]] bool wants_decisions() const override { return true; }
   void quad(const QuadEvent& event) override {
@@ -28,24 +26,11 @@ class Adder final : public PacketObserver {
     place.covered += static_cast<std::uint32_t>(std::popcount(event.mask));
   }
   void decision(const DecisionEvent& event) override {
-    const auto size = static_cast<int>(event.size);
-    if (event.verdict == TileVerdict::kPartial && size != tile_size_) {
-      return;
-    }
-    for (int y = 0; y < size; y += tile_size_) {
-      for (int x = 0; x < size; x += tile_size_) {
-        passage::count(decisions[{event.surface, (static_cast<int>(event.x) + x) / tile_size_,
-                                  (static_cast<int>(event.y) + y) / tile_size_}],
-                       event.verdict);
-      }
-    }
+    passage::count(decisions[{event.surface, event.tile_x, event.tile_y}], event.verdict);
   }
 
   std::map<Place, QuadLanes> quads;
   std::map<Place, TileDecisions> decisions;
-
- private:
-  int tile_size_;
 };
 
 template <class Value>
@@ -68,7 +53,7 @@ TEST_CASE("sums of random frames on random machines are those of their packets",
   for (std::uint64_t run = 0; run < runs; ++run) {
     CAPTURE(seed(), run);
     const Config config = random_config(random);
-    Adder adder(config.tile_walker.tile_size);
+    Adder adder;
     const FrameResult result =
         run_in_order(random_frame(random), config, {.keep_sums = true, .observer = &adder}, nullptr);
     for (std::uint32_t i = 0; i < result.surfaces.size(); ++i) {

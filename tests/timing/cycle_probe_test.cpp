@@ -122,15 +122,16 @@ class ProbedReader final : public StreamReader {
   std::uint64_t clear_cycles_;
 };
 
-/// Gives `stream` to `reader` in parts that end anywhere, after one packet in `length` or so.
+/// Gives `stream` to `reader` in parts that end anywhere but in a block, after one packet in `length` or so.
 void read_in_parts(const StreamView& stream, StreamReader& reader, Random& random, std::int64_t length) {
-  StreamWriter writer(reader, "random");
+  StreamWriter writer(reader);
   const auto cut = [&](bool in_triangle) {
     if (random.between(1, length) == 1) {
       writer.give(in_triangle, nullptr);
     }
   };
   HWY_NAMESPACE::StreamCursor at{.triangle = stream.triangles.data(),
+                                 .block = stream.blocks.data(),
                                  .job = stream.jobs.data(),
                                  .miss = stream.misses.data(),
                                  .miss_burst = stream.miss_burst.data(),
@@ -141,15 +142,18 @@ void read_in_parts(const StreamView& stream, StreamReader& reader, Random& rando
     for (std::uint32_t i = 0; i < segment.triangles; ++i, ++at.triangle) {
       seen += at.triangle->dropped_before;
       writer.drawn(seen++);
-      for (std::uint32_t k = 0; k < at.triangle->jobs; ++k, ++at.job) {
+      for (std::uint32_t k = 0; k < at.triangle->blocks; ++k, ++at.block) {
         cut(true);
-        writer.job(at.job->steps(), at.job->quads());
-        if (segment.touches_depth != 0 && at.job->quads() != 0) {
-          writer.accessed(HWY_NAMESPACE::next_misses(at));
+        writer.block(at.block->empty_before());
+        for (int j = 0; j < at.block->jobs(); ++j, ++at.job) {
+          writer.job(*at.job);
+          if (segment.touches_depth != 0 && *at.job != 0) {
+            writer.accessed(HWY_NAMESPACE::next_misses(at));
+          }
         }
       }
       cut(true);
-      writer.walked(at.triangle->steps_after);
+      writer.walked(at.triangle->empty_after);
       cut(false);
     }
     writer.end_segment(seen + segment.dropped_after);

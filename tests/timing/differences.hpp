@@ -164,8 +164,8 @@ class Events : public PacketObserver {
     cycles.push_back(event.cycle);
   }
   void decision(const DecisionEvent& event) override {
-    decisions.insert(decisions.end(), {event.draw, event.triangle, event.surface, event.x, event.y,
-                                       event.size, static_cast<std::uint64_t>(event.verdict)});
+    decisions.insert(decisions.end(), {event.draw, event.triangle, event.surface, event.tile_x, event.tile_y,
+                                       static_cast<std::uint64_t>(event.verdict)});
   }
   void tile_job(const TileJob& job) override {
     TileJob::fields([&](const char*, auto member, auto, auto) {

@@ -31,13 +31,13 @@ std::uint64_t dropped(const PacketStream& packets) {
   return sum;
 }
 
-std::uint64_t steps(const PacketStream& packets) {
+std::uint64_t blocks(const PacketStream& packets) {
   std::uint64_t sum = 0;
   for (const StreamTriangle& triangle : packets.triangles) {
-    sum += triangle.steps_after;
+    sum += triangle.empty_after;
   }
-  for (const StreamJob& job : packets.jobs) {
-    sum += job.steps();
+  for (const StreamBlock& block : packets.blocks) {
+    sum += block.empty_before() + 1;
   }
   return sum;
 }
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> words(const std::vector<Packet>& packets) {
   return words;
 }
 
-/// Draws without depth: `draws` of `triangles`, each of 8 jobs of 2 steps and 16 quads, with a fast clear
+/// Draws without depth: `draws` of `triangles`, each of 4 blocks of 2 jobs of 16 quads, with a fast clear
 /// before draw `cleared`.
 FrameRecord even_record(std::uint32_t draws, std::uint32_t triangles, std::uint32_t cleared = 0xFFFFFFFF) {
   FrameRecord record;
@@ -62,8 +62,9 @@ FrameRecord even_record(std::uint32_t draws, std::uint32_t triangles, std::uint3
     }
     record.packets.segments.push_back({.triangles = triangles});
   }
-  record.packets.triangles.assign(std::size_t{draws} * triangles, {.jobs = 8});
-  record.packets.jobs.assign(record.packets.triangles.size() * 8, StreamJob(2, 16));
+  record.packets.triangles.assign(std::size_t{draws} * triangles, {.blocks = 4});
+  record.packets.blocks.assign(record.packets.triangles.size() * 4, StreamBlock(0, 2));
+  record.packets.jobs.assign(record.packets.triangles.size() * 8, 16);
   return record;
 }
 
@@ -87,11 +88,11 @@ TEST_CASE("stretches of a record lie one behind the other, and have its counts",
       REQUIRE(stretches[i].first_job > stretches[i - 1].first_job);
       REQUIRE(stretches[i].first_access >= stretches[i - 1].first_access);
       REQUIRE(stretches[i - 1].work >= work);
-      REQUIRE(packets.jobs[stretches[i].first_job - 1].quads() != 0);
+      REQUIRE(packets.jobs[stretches[i].first_job - 1] != 0);
     }
     CHECK(sum_of(stretches, StretchCount::kStretches) == static_cast<double>(stretches.size()));
     CHECK(sum_of(stretches, StretchCount::kJobs) == static_cast<double>(packets.jobs.size()));
-    CHECK(sum_of(stretches, StretchCount::kSteps) == static_cast<double>(steps(packets)));
+    CHECK(sum_of(stretches, StretchCount::kBlocks) == static_cast<double>(blocks(packets)));
     CHECK(sum_of(stretches, StretchCount::kDrawn) == static_cast<double>(packets.triangles.size()));
     CHECK(sum_of(stretches, StretchCount::kDropped) == static_cast<double>(dropped(packets)));
   }
@@ -104,10 +105,11 @@ TEST_CASE("copies of all stretches are the record, in more draws", "[timing]") {
     const FrameRecord record = record_frame(random_frame(random), random_config(random));
     const std::vector<Stretch> stretches = cut(record, static_cast<std::uint64_t>(random.between(1, 60)));
     const StretchCopy copied = copy(record, stretches, std::vector<bool>(stretches.size(), true));
-    CHECK(words(copied.packets.jobs) == words(record.packets.jobs));
+    CHECK(words(copied.packets.blocks) == words(record.packets.blocks));
+    CHECK(copied.packets.jobs == record.packets.jobs);
     CHECK(words(copied.packets.accesses) == words(record.packets.accesses));
     CHECK(dropped(copied.packets) == dropped(record.packets));
-    CHECK(steps(copied.packets) == steps(record.packets));
+    CHECK(blocks(copied.packets) == blocks(record.packets));
   }
 }
 
@@ -123,7 +125,7 @@ TEST_CASE("the copy of a stretch has its counts", "[timing]") {
       const PacketStream packets = copy(record, stretches, wanted).packets;
       StretchCounts counts = stretches[i].counts;
       CHECK(count(counts, StretchCount::kJobs) == static_cast<double>(packets.jobs.size()));
-      CHECK(count(counts, StretchCount::kSteps) == static_cast<double>(steps(packets)));
+      CHECK(count(counts, StretchCount::kBlocks) == static_cast<double>(blocks(packets)));
       CHECK(count(counts, StretchCount::kDropped) == static_cast<double>(dropped(packets)));
       // a triangle that began in the stretch before is drawn again
       CHECK(static_cast<double>(packets.triangles.size()) - count(counts, StretchCount::kDrawn) <= 1);

@@ -33,10 +33,9 @@ inline Config random_config(Random& random) {
   config.raster.sub_pixel_bits = static_cast<int>(random.between(4, 8));
   config.tile_walker.tile_size = pick(random, {4, 8, 16});
   do {
-    config.tile_walker.block_size = pick(random, {8, 16, 32, 64});
-  } while (config.tile_walker.block_size <= config.tile_walker.tile_size);
-  config.tile_walker.block_level = random.between(0, 3) != 0;
-  config.tile_walker.trivial_reject = random.between(0, 3) != 0;
+    config.block_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
+  } while (config.block_walker.block_size > 64);
+  config.block_walker.trivial_reject = random.between(0, 3) != 0;
   config.tile_walker.trivial_accept = random.between(0, 3) != 0;
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
   config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
@@ -44,7 +43,7 @@ inline Config random_config(Random& random) {
   config.setup.queue = mostly_small(random, 2, 64);
   config.setup.interval = pick(random, {1, 2, 4, 8, 16});
   config.setup.fifo = mostly_small(random, 2, 64);
-  config.tile_walker.step_interval = mostly_small(random, 1, 8);
+  config.block_walker.fifo = mostly_small(random, 2, 8);
   config.tile_walker.fifo = mostly_small(random, 2, 64);
   config.edge_evaluator.pipe_stages = static_cast<int>(random.between(1, 3));
   config.edge_evaluator.fifo = mostly_small(random, 2, 32);
@@ -81,9 +80,8 @@ inline Config random_timing(Random& random, const Config& recorded) {
     Config config = random_config(random);
     config.raster.sub_pixel_bits = recorded.raster.sub_pixel_bits;
     config.tile_walker.tile_size = recorded.tile_walker.tile_size;
-    config.tile_walker.block_size = recorded.tile_walker.block_size;
-    config.tile_walker.block_level = recorded.tile_walker.block_level;
-    config.tile_walker.trivial_reject = recorded.tile_walker.trivial_reject;
+    config.block_walker.block_size = recorded.block_walker.block_size;
+    config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
     config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z = recorded.late_z;

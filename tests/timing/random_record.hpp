@@ -14,7 +14,9 @@ inline FrameRecord random_record(Random& random, const Config& config) {
   record.config = config;
   record.surfaces.push_back({.tiles_x = 16, .tiles = 256, .sample_bytes = pick(random, {2u, 4u})});
   const int most_quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
-  const std::uint32_t most_steps = pick(random, {1u, 3u, 40u, 500u});
+  const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
+  const int most_jobs = row_tiles * row_tiles;
+  const std::uint32_t most_empty = pick(random, {0u, 3u, 40u, 500u});
   const auto count = [&](std::uint32_t few, std::uint32_t many) {
     return static_cast<std::uint32_t>(random.between(0, random.between(0, 3) == 0 ? many : few));
   };
@@ -30,12 +32,16 @@ inline FrameRecord random_record(Random& random, const Config& config) {
     segment.triangles = count(10, 100);
     const std::int64_t local = random.between(0, 15);  // bursts stay in so many columns
     for (std::uint32_t i = 0; i < segment.triangles; ++i) {
-      const StreamTriangle triangle{
-          .dropped_before = count(2, 50), .jobs = count(4, 60), .steps_after = count(0, most_steps)};
-      packets.triangles.push_back(triangle);
-      for (std::uint32_t k = 0; k < triangle.jobs; ++k) {
+      StreamTriangle triangle{
+          .dropped_before = count(2, 50), .blocks = 0, .empty_after = count(0, most_empty)};
+      for (std::uint32_t jobs = count(4, 60); jobs > 0; --jobs) {
+        if (triangle.blocks == 0 || packets.blocks.back().jobs() == most_jobs || random.between(0, 2) == 0) {
+          ++triangle.blocks;
+          packets.blocks.emplace_back(count(1, most_empty), 0);
+        }
+        packets.blocks.back().add_job();
         const auto quads = static_cast<int>(random.between(0, 2) == 0 ? 0 : random.between(1, most_quads));
-        packets.jobs.emplace_back(1 + count(1, most_steps - 1), quads);
+        packets.jobs.push_back(static_cast<StreamJob>(quads));
         if (quads != 0 && segment.touches_depth != 0) {
           const auto bands =
               static_cast<std::int64_t>((1u << stream_bands(config.tile_walker.tile_size)) - 1);
@@ -45,6 +51,7 @@ inline FrameRecord random_record(Random& random, const Config& config) {
               static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))));
         }
       }
+      packets.triangles.push_back(triangle);
     }
     packets.segments.push_back(segment);
   }

@@ -35,9 +35,12 @@ inline std::string record_difference(const FrameRecord& ours, const FrameRecord&
              member(&Segment::triangles), member(&Segment::dropped_after)) +
          list(
              "triangles", [](const FrameRecord& record) { return record.packets.triangles; },
-             member(&Triangle::dropped_before), member(&Triangle::jobs), member(&Triangle::steps_after)) +
+             member(&Triangle::dropped_before), member(&Triangle::blocks), member(&Triangle::empty_after)) +
          list(
-             "jobs", [](const FrameRecord& record) { return record.packets.jobs; }, word) +
+             "blocks", [](const FrameRecord& record) { return record.packets.blocks; }, word) +
+         list(
+             "jobs", [](const FrameRecord& record) { return record.packets.jobs; },
+             [](StreamJob quads) { return quads; }) +
          list(
              "accesses", [](const FrameRecord& record) { return record.packets.accesses; }, word);
 }

@@ -62,14 +62,16 @@ RetimedFrame with_all_lines(const FrameRecord& record, const Config& config) {
   return result;
 }
 
-/// One triangle with so many jobs of `steps` each, all with 4 quads; bursts change between `lines` tiles.
-FrameRecord long_triangle(std::uint32_t jobs, std::uint32_t steps, std::uint32_t lines) {
+/// One triangle with so many blocks of one job, each after `empty` without, all with 4 quads; bursts change
+/// between `lines` tiles.
+FrameRecord long_triangle(std::uint32_t jobs, std::uint32_t empty, std::uint32_t lines) {
   FrameRecord record;
   record.surfaces.push_back({.tiles_x = 64, .tiles = 512, .sample_bytes = 4});
   record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
-  record.packets.triangles.push_back({.jobs = jobs});
+  record.packets.triangles.push_back({.blocks = jobs});
   for (std::uint32_t i = 0; i < jobs; ++i) {
-    record.packets.jobs.emplace_back(steps, 4);
+    record.packets.blocks.emplace_back(empty, 1);
+    record.packets.jobs.push_back(4);
     record.packets.accesses.emplace_back(i % lines % 64, i % lines / 64, std::uint8_t{15}, std::uint8_t{15});
   }
   return record;
@@ -171,17 +173,18 @@ TEST_CASE("a frame of more than 2^16 cycles goes through lanes of 16 bits", "[ti
 TEST_CASE("a gap of more than 2^16 cycles goes through lanes of 16 bits", "[timing]") {
   // dropped triangles, a clear that takes its time, walks without a job after the last burst of a draw, and a
   // draw without bursts at the end
-  FrameRecord record = long_triangle(100, 1, 64);
+  FrameRecord record = long_triangle(100, 0, 64);
   record.surfaces[0].tiles = 1 << 18;
   PacketStream& packets = record.packets;
   packets.segments[0].dropped_after = 200000;
   packets.segments.push_back({.kind = StreamSegment::Kind::kFastClear, .surface = 0});
   packets.segments.push_back({.surface = 0, .triangles = 100, .dropped_after = 70000});
-  packets.triangles.push_back({.dropped_before = 100000, .jobs = 1});
-  packets.jobs.emplace_back(1u, 4);
+  packets.triangles.push_back({.dropped_before = 100000, .blocks = 1});
+  packets.blocks.emplace_back(0u, 1);
+  packets.jobs.push_back(4);
   packets.segments.push_back({.surface = 0, .triangles = 201});
   for (int i = 0; i < 300; ++i) {
-    packets.triangles.push_back({.jobs = 0, .steps_after = 3000});
+    packets.triangles.push_back({.empty_after = 3000});
   }
   Config config;
   config.z_cache.clear_tiles = 1;
@@ -195,7 +198,7 @@ TEST_CASE("a gap of more than 2^16 cycles goes through lanes of 16 bits", "[timi
 }
 
 TEST_CASE("a flush of more than 2^16 cycles goes through lanes of 16 bits", "[timing]") {
-  FrameRecord record = long_triangle(512, 1, 512);
+  FrameRecord record = long_triangle(512, 0, 512);
   Config config;
   config.z_cache.lines = 512;
   config.z_cache.ways = 16;
@@ -212,15 +215,15 @@ TEST_CASE("packets that are too far apart for 16 bits are timed in 32", "[timing
   slow.memory.latency = 2000;
   slow.tile_walker.fifo = slow.early_z.pending = slow.quad_generator.fifo = 64;
   slow.z_cache.lines = slow.z_cache.ways = slow.z_cache.misses_in_flight = 1;
-  REQUIRE(detail::longest_job(slow, 1) < detail::kNarrowRoom);
-  FrameRecord record = long_triangle(2000, 1, 64);
+  REQUIRE(detail::longest_job(slow, 0) < detail::kNarrowRoom);
+  FrameRecord record = long_triangle(2000, 0, 64);
   record.config.z_cache = slow.z_cache;
   Retimer retimer(std::move(record));
   std::vector<Config> machines = latencies(slow);
   CHECK(retimer.retime(machines[0]).cycles > std::uint64_t{2000} * 2000);
   machines.push_back(slow);
   machines.back().memory.latency = 60000;  // a burst alone does not fit
-  CHECK(detail::longest_job(machines.back(), 1) > detail::kNarrowRoom);
+  CHECK(detail::longest_job(machines.back(), 0) > detail::kNarrowRoom);
   check_batch(retimer, machines);
 }
 
@@ -235,18 +238,20 @@ TEST_CASE("no burst takes longer than the bound that lanes of 16 bits rely on", 
     // one triangle, so that jobs alone take the time, on a pipe that is as long as the bound of a job
     const auto jobs = static_cast<std::uint32_t>(record.packets.jobs.size());
     record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
-    record.packets.triangles.assign(1, {.jobs = jobs});
-    std::uint32_t most_steps = 0;
+    record.packets.triangles.assign(1, {.blocks = static_cast<std::uint32_t>(record.packets.blocks.size())});
+    std::uint32_t most_empty = 0;
+    for (const StreamBlock& block : record.packets.blocks) {
+      most_empty = std::max(most_empty, block.empty_before());
+    }
     record.packets.accesses.clear();
-    for (const StreamJob& job : record.packets.jobs) {
-      most_steps = std::max(most_steps, job.steps());
-      if (job.quads() != 0) {
+    for (const StreamJob quads : record.packets.jobs) {
+      if (quads != 0) {
         record.packets.accesses.emplace_back(static_cast<std::uint32_t>(random.between(0, 15)),
                                              static_cast<std::uint32_t>(random.between(0, 15)),
                                              std::uint8_t{3}, std::uint8_t{3});
       }
     }
-    const std::uint64_t bound = detail::longest_job(config, most_steps);
+    const std::uint64_t bound = detail::longest_job(config, most_empty);
     const auto lines = static_cast<std::uint64_t>(config.z_cache.lines);
     const std::uint64_t flush = lines * (1 + 1024);
     CHECK(Retimer(record).retime(config).cycles <= (jobs + 1) * bound + flush + lines);

@@ -102,9 +102,10 @@ TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]")
   record.config.z_cache.misses_in_flight = 1;
   record.surfaces.push_back({.tiles_x = 2, .tiles = 2, .sample_bytes = 4});
   record.packets.segments.push_back({.surface = 0, .touches_depth = 1, .triangles = 1});
-  record.packets.triangles.push_back({.jobs = 70000});
+  record.packets.triangles.push_back({.blocks = 70000});
   for (std::uint32_t i = 0; i < 70000; ++i) {
-    record.packets.jobs.emplace_back(1u, 4);
+    record.packets.blocks.emplace_back(0u, 1);
+    record.packets.jobs.push_back(4);
     record.packets.accesses.emplace_back(i % 2, 0u, std::uint8_t{15}, std::uint8_t{0});
   }
   Retimer retimer(record);
@@ -120,12 +121,14 @@ TEST_CASE("a frame whose bound needs 64 bits gives the same cycles", "[timing]")
 TEST_CASE("a key that changes packets is refused by name", "[timing]") {
   Random random(seed());
   Retimer retimer(record_frame(random_frame(random), Config{}));
-  const std::pair<const char*, const char*> changes[] = {
-      {"tile_walker.tile_size", "16"},         {"raster.sub_pixel_bits", "7"},
-      {"tile_walker.block_size", "16"},        {"tile_walker.block_level", "false"},
-      {"tile_walker.trivial_reject", "false"}, {"tile_walker.trivial_accept", "false"},
-      {"depth.interpolator", "barycentric"},   {"late_z", "no_write"},
-      {"z_cache.fast_clear", "false"}};
+  const std::pair<const char*, const char*> changes[] = {{"tile_walker.tile_size", "16"},
+                                                         {"raster.sub_pixel_bits", "7"},
+                                                         {"block_walker.block_size", "16"},
+                                                         {"block_walker.trivial_reject", "false"},
+                                                         {"tile_walker.trivial_accept", "false"},
+                                                         {"depth.interpolator", "barycentric"},
+                                                         {"late_z", "no_write"},
+                                                         {"z_cache.fast_clear", "false"}};
   for (const auto& [key, value] : changes) {
     Config config;
     set_config(config, key, value);

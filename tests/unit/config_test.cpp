@@ -59,7 +59,7 @@ TEST_CASE("config: a capacity of 0, a width of 0, a size that is no power of two
   CHECK(error_of({"quad_generator.quads_per_cycle=0"}) ==
         "configuration key 'quad_generator.quads_per_cycle' is '0'; legal: 1, 2, 4, 8, 16");
   CHECK(error_of({"memory.read_bytes=0"}).find("legal: 1, 2, 4, 8,") != std::string::npos);
-  for (const char* power : {"tile_walker.tile_size=12", "tile_walker.block_size=24", "setup.interval=3",
+  for (const char* power : {"tile_walker.tile_size=12", "block_walker.block_size=24", "setup.interval=3",
                             "quad_generator.quads_per_cycle=3", "early_z.quads_per_cycle=6",
                             "z_cache.lines=100", "z_cache.ways=3", "z_cache.parts=3",
                             "z_cache.clear_tiles=48", "memory.read_bytes=48", "memory.write_bytes=96"}) {
@@ -86,7 +86,11 @@ TEST_CASE("config: an unknown key is answered with those that exist") {
         "'tile_walker.tile_size' is not a setting; it must read KEY=VALUE");
 }
 
-TEST_CASE("config: a key of a section that was renamed is refused with its new name") {
+TEST_CASE("config: a key that was renamed is refused with its new name") {
+  CHECK(error_of({"tile_walker.block_size=32"}) ==
+        "unknown configuration key 'tile_walker.block_size'; it is 'block_walker.block_size' now");
+  CHECK(error_of({"walker.trivial_reject=true"}) ==
+        "unknown configuration key 'walker.trivial_reject'; it is 'block_walker.trivial_reject' now");
   for (const ConfigKey& key : config_keys({})) {
     if (key.name.starts_with("tile_walker.")) {
       const std::string old = key.name.substr(std::string("tile_").size());
@@ -101,10 +105,12 @@ TEST_CASE("config: a key of a section that was renamed is refused with its new n
 }
 
 TEST_CASE("config: keys that must fit each other") {
-  CHECK(error_of({"tile_walker.block_size=8"}) ==
-        "configuration key 'tile_walker.block_size' is 8; legal: larger than 'tile_walker.tile_size' (8)");
-  CHECK(error_of({"tile_walker.tile_size=16", "tile_walker.block_size=16"}) ==
-        "configuration key 'tile_walker.block_size' is 16; legal: larger than 'tile_walker.tile_size' (16)");
+  CHECK(
+      error_of({"block_walker.block_size=8"}) ==
+      "configuration key 'block_walker.block_size' is 8; legal: 2, 4 or 8 times 'tile_walker.tile_size' (8)");
+  CHECK(error_of({"tile_walker.tile_size=4", "block_walker.block_size=64"}) ==
+        "configuration key 'block_walker.block_size' is 64; legal: 2, 4 or 8 times 'tile_walker.tile_size' "
+        "(4)");
   CHECK(error_of({"tile_walker.tile_size=4", "quad_generator.quads_per_cycle=8"}) ==
         "configuration key 'quad_generator.quads_per_cycle' is 8; legal: at most the quads of a tile (4)");
   CHECK(error_of({"early_z.quads_per_cycle=8"}) ==
@@ -119,7 +125,7 @@ TEST_CASE("config: keys that must fit each other") {
   CHECK(error_of({"z_cache.parts=4", "z_cache.write_buffers=3"}) ==
         "configuration key 'z_cache.write_buffers' is 3; legal: at least 'z_cache.parts' (4)");
   // And the same just inside.
-  CHECK(error_of({"tile_walker.tile_size=4", "tile_walker.block_size=8"}).empty());
+  CHECK(error_of({"tile_walker.tile_size=4", "block_walker.block_size=8"}).empty());
   CHECK(error_of({"quad_generator.quads_per_cycle=16", "early_z.quads_per_cycle=16"}).empty());
   CHECK(error_of({"tile_walker.tile_size=4", "z_cache.parts=2"}).empty());
   CHECK(error_of({"z_cache.lines=16", "z_cache.ways=4", "z_cache.parts=4"}).empty());
@@ -153,8 +159,9 @@ TEST_CASE("config: a file is refused by its name too, and one that was written i
   CHECK(error_of_file("").empty());
 
   Config config;
-  for (const char* setting : {"late_z=no_write", "tile_walker.tile_size=16", "tile_walker.block_level=false",
-                              "depth.interpolator=plane", "memory.latency=65535", "setup.interval=16"}) {
+  for (const char* setting :
+       {"late_z=no_write", "tile_walker.tile_size=16", "block_walker.trivial_reject=false",
+        "depth.interpolator=plane", "memory.latency=65535", "setup.interval=16"}) {
     set_config(config, setting);
   }
   CHECK(error_of_file(to_toml(config)).empty());

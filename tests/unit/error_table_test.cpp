@@ -239,7 +239,7 @@ TEST_CASE("error table: what a person reads") {
   ErrorTable off = small_table();
   off.workloads[0].fidelities[2] = changed([](FidelityRun& run) {
     run.cycles->cycles = 7'100'001;
-    run.cycles->stats.stage[4].stall[3] += 12;
+    run.cycles->stats.stage[static_cast<std::size_t>(Stage::kZLookup)].stall[stall::kLookupFillBuffers] += 12;
   });
   off.workloads[0].fidelities[2].error->truth = 7'100'000;
   off.workloads[0].fidelities[2].error->cycles = 1;

@@ -20,6 +20,7 @@ class NotingReader final : public StreamReader {
   bool throws_at_end = false;
   std::chrono::microseconds slow{0};
 
+  std::vector<std::uint32_t> blocks;
   std::vector<std::uint32_t> jobs;
   std::vector<std::size_t> sizes;  ///< of the lists of each part
   std::vector<std::thread::id> threads;
@@ -40,12 +41,13 @@ class NotingReader final : public StreamReader {
       throw std::runtime_error("in the middle");
     }
     note(burst_cycles == nullptr ? "read" : "read, with cycles");
-    for (const StreamJob& job : part.jobs) {
-      jobs.push_back(job.word());
+    for (const StreamBlock& block : part.blocks) {
+      blocks.push_back(block.word());
     }
+    jobs.insert(jobs.end(), part.jobs.begin(), part.jobs.end());
     sizes.insert(sizes.end(),
-                 {part.segments.size(), part.triangles.size(), part.jobs.size(), part.accesses.size(),
-                  part.misses.size(), part.miss_burst.size(), part.tiles.size(),
+                 {part.segments.size(), part.triangles.size(), part.blocks.size(), part.jobs.size(),
+                  part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.tiles.size(),
                   std::size_t{part.continues_segment} + std::size_t{part.continues_triangle} * 2 +
                       std::size_t{part.open_segment} * 4 + std::size_t{part.open_triangle} * 8});
   }
@@ -68,9 +70,11 @@ class NotingReader final : public StreamReader {
 void write_part(StreamReader& reader, std::size_t number) {
   std::vector<StreamSegment> segments(number % 2);
   std::vector<StreamTriangle> triangles(number % 3);
+  std::vector<StreamBlock> blocks;
   std::vector<StreamJob> jobs;
   for (std::size_t i = 0; i < number % 100; ++i) {
-    jobs.emplace_back(static_cast<std::uint32_t>(number * 100 + i + 1), 4);
+    blocks.emplace_back(static_cast<std::uint32_t>(number * 100 + i + 1), 1);
+    jobs.push_back(static_cast<StreamJob>(i));
   }
   std::vector<StreamAccess> accesses(number % 5);
   std::vector<ZMiss> misses(number % 7);
@@ -78,6 +82,7 @@ void write_part(StreamReader& reader, std::size_t number) {
   std::vector<StreamTile> tiles(jobs.size());
   reader.read({.segments = segments,
                .triangles = triangles,
+               .blocks = blocks,
                .jobs = jobs,
                .accesses = accesses,
                .misses = misses,
@@ -88,7 +93,8 @@ void write_part(StreamReader& reader, std::size_t number) {
                .open_segment = number % 8 < 4,
                .open_triangle = number % 16 < 8},
               nullptr);
-  jobs.assign(jobs.size(), StreamJob(1, 0));
+  blocks.assign(blocks.size(), StreamBlock(1, 0));
+  jobs.assign(jobs.size(), 77);
 }
 
 /// A frame of so many parts.
@@ -119,6 +125,7 @@ TEST_CASE("threaded reader: all parts, in order, in one other thread, then the e
       NotingReader expected;
       write_frame(expected, parts);
       write_beside(reader, parts);
+      CHECK(reader.blocks == expected.blocks);
       CHECK(reader.jobs == expected.jobs);
       CHECK(reader.sizes == expected.sizes);
       CHECK(reader.calls == expected.calls);

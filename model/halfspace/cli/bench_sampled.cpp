@@ -41,7 +41,7 @@ const std::vector<Choice>& choices() {
       {"setup.queue", {4, 8, 16}},
       {"setup.interval", {1, 1, 2, 4, 8, 16}},
       {"setup.fifo", {8, 16, 40, 64}},
-      {"tile_walker.step_interval", {1, 1, 1, 2, 4}},
+      {"block_walker.fifo", {2, 4, 4, 8}},
       {"tile_walker.fifo", {4, 8, 16, 32, 64}},
       {"edge_evaluator.pipe_stages", {1, 2, 3}},
       {"edge_evaluator.fifo", {2, 4, 8, 16}},

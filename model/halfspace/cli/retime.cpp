@@ -120,9 +120,8 @@ void retime(const RetimeOptions& options) {
       cycles.push_back(frame.cycles);
     }
   }
-  const std::uint64_t quads = std::accumulate(
-      record.packets.jobs.begin(), record.packets.jobs.end(), std::uint64_t{0},
-      [](std::uint64_t sum, const StreamJob& job) { return sum + static_cast<std::uint64_t>(job.quads()); });
+  const std::uint64_t quads =
+      std::accumulate(record.packets.jobs.begin(), record.packets.jobs.end(), std::uint64_t{0});
 
   std::string table = fmt::format("| {} | machine |", "frame");
   std::string rule = "|---|---|";

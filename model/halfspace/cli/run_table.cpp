@@ -55,10 +55,11 @@ void print_table(const Frame& frame, const FrameResult& result) {
   row("setup", c.setup.drawn,
       fmt::format("drawn; {} face away, {} without area, {} hit no sample, {} outside", c.setup.culled,
                   c.setup.zero_area, c.setup.no_sample, c.setup.outside));
-  const TileWalkerCounters& w = c.tile_walker;
-  row("tile_walker", c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped,
-      fmt::format("tiles; {} rejected, {} covered whole ({} by their block)", w.tiles_rejected,
-                  c.edge_evaluator.tiles_skipped, w.tiles_by_block));
+  const BlockWalkerCounters& w = c.block_walker;
+  row("block_walker", w.blocks - w.blocks_empty,
+      fmt::format("blocks; {} without a tile, {} tiles rejected", w.blocks_empty, w.tiles_rejected));
+  row("tile_walker", c.tile_walker.tiles_accepted + c.tile_walker.tiles_partial,
+      fmt::format("tiles; {} covered whole", c.tile_walker.tiles_accepted));
   row("edge_evaluator", c.edge_evaluator.tiles,
       fmt::format(
           "tiles evaluated; {} empty, {:.1f}% of edges skipped", c.edge_evaluator.tiles_empty,

@@ -105,21 +105,25 @@ std::optional<int> parse_value(const Legal& legal, std::string_view text) {
   return legal_value ? std::optional(value) : std::nullopt;
 }
 
-/// Sections that had another name, and the one they have now.
+/// Keys, or whole sections, that had another name, and the one they have now.
 struct Renamed {
   std::string_view was;
   std::string_view is;
 };
-constexpr Renamed kRenamed[] = {{"walker.", "tile_walker."}};
+constexpr Renamed kRenamed[] = {{"tile_walker.block_size", "block_walker.block_size"},
+                                {"tile_walker.trivial_reject", "block_walker.trivial_reject"},
+                                {"walker.block_size", "block_walker.block_size"},
+                                {"walker.trivial_reject", "block_walker.trivial_reject"},
+                                {"walker.", "tile_walker."}};
 
 const Key& find_key(std::string_view name) {
   const auto find = [](std::string_view wanted) { return std::ranges::find(keys(), wanted, &Key::name); };
   if (const auto found = find(name); found != keys().end()) {
     return *found;
   }
-  for (const Renamed& section : kRenamed) {
-    if (name.starts_with(section.was)) {
-      const std::string now = std::string(section.is) + std::string(name.substr(section.was.size()));
+  for (const Renamed& each : kRenamed) {
+    if (name.starts_with(each.was)) {
+      const std::string now = std::string(each.is) + std::string(name.substr(each.was.size()));
       if (find(now) != keys().end()) {
         throw InputError(fmt::format("unknown configuration key '{}'; it is '{}' now", name, now));
       }
@@ -230,9 +234,9 @@ void validate(const Config& config) {
       throw InputError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
     }
   };
-  demand(config.tile_walker.block_size > config.tile_walker.tile_size, "tile_walker.block_size",
-         config.tile_walker.block_size,
-         fmt::format("larger than 'tile_walker.tile_size' ({})", config.tile_walker.tile_size));
+  const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
+  demand(row_tiles >= 2 && row_tiles <= 8, "block_walker.block_size", config.block_walker.block_size,
+         fmt::format("2, 4 or 8 times 'tile_walker.tile_size' ({})", config.tile_walker.tile_size));
   const int quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
   demand(config.quad_generator.quads_per_cycle <= quads, "quad_generator.quads_per_cycle",
          config.quad_generator.quads_per_cycle, fmt::format("at most the quads of a tile ({})", quads));

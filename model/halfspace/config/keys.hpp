@@ -40,22 +40,23 @@
     MODULE(setup., fifo, int, 40, range(2, 64), "triangles", time,                                           \
         "output FIFO of setup", SetupFifo)                                                                   \
   END(setup)                                                                                                 \
+  BEGIN(block_walker)                                                                                        \
+    PACKAGE(block_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                     \
+        "side of the block whose tiles are decided in one step; 2, 4 or 8 tiles", BlockSize,                 \
+        HALFSPACE_BLOCK_SIZE)                                                                                \
+    MODULE(block_walker., trivial_reject, bool, true, boolean(), "", function,                               \
+        "drop tiles that are outside one edge", TrivialReject)                                               \
+    MODULE(block_walker., fifo, int, 4, range(2, 8), "blocks", time,                                         \
+        "output FIFO of the block walker", BlockFifo)                                                        \
+  END(block_walker)                                                                                          \
   BEGIN(tile_walker)                                                                                         \
     PACKAGE(tile_walker., tile_size, int, 8, power_of_two(4, 16), "pixels", function,                        \
         "side of the tile that the edge evaluator takes in one step; a line of the z cache grows with it",   \
         TileSize, HALFSPACE_TILE_SIZE)                                                                       \
-    MODULE(tile_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                       \
-        "side of the block that the walker decides before its tiles; larger than a tile", BlockSize)         \
-    MODULE(tile_walker., block_level, bool, true, boolean(), "", function,                                   \
-        "decide whole blocks first; off: decide every tile of the bounds", BlockLevel)                       \
-    MODULE(tile_walker., trivial_reject, bool, true, boolean(), "", function,                                \
-        "drop blocks and tiles that are outside one edge", TrivialReject)                                    \
     MODULE(tile_walker., trivial_accept, bool, true, boolean(), "", function,                                \
         "skip an edge that has all samples of the tile inside", TrivialAccept)                               \
-    MODULE(tile_walker., step_interval, int, 1, range(1, 8), "cycles", time,                                 \
-        "length of a step of the walker", StepInterval)                                                      \
     MODULE(tile_walker., fifo, int, 16, range(2, 64), "tile jobs", time,                                     \
-        "output FIFO of the walker", WalkerFifo)                                                             \
+        "output FIFO of the tile walker", WalkerFifo)                                                        \
   END(tile_walker)                                                                                           \
   BEGIN(edge_evaluator)                                                                                      \
     MODULE(edge_evaluator., pipe_stages, int, 2, range(1, 3), "registers", time,                             \

@@ -101,9 +101,6 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (config.tile_walker.tile_size > 8) {
     return "tile_walker.tile_size = 16";
   }
-  if (!config.tile_walker.block_level) {
-    return "tile_walker.block_level = false";
-  }
   const PacketObserver* const observer = watch.observer;
   const bool shows = observer != nullptr &&
                      (observer->wants_quads() || observer->wants_decisions() || observer->wants_tile_jobs());

@@ -11,7 +11,7 @@ namespace halfspace::fast {
 namespace {
 
 int block_shift_of(const Config& config) {
-  const int tiles = config.tile_walker.block_size / config.tile_walker.tile_size;
+  const int tiles = config.block_walker.block_size / config.tile_walker.tile_size;
   return std::countr_zero(static_cast<unsigned>(tiles));
 }
 

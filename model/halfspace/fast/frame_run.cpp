@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -41,7 +42,7 @@ void FrameRun::run(const Frame& frame, Barrier& all, FrameResult& result) {
   frame_ = &frame;
   draws_.clear();
   if (reader_ != nullptr) {
-    stream_.emplace(*reader_, frame.name);
+    stream_.emplace(*reader_);
     reader_->begin(stream_surfaces(memory_.surfaces), memory_.lines());
   }
   PacketObserver* const observer = columns_.own == 0 ? memory_.watch.observer : nullptr;
@@ -216,34 +217,41 @@ void FrameRun::flush() {
 
 template <int TileSize>
 void FrameRun::draw_by_units(const SetupTriangle& triangle) {
-  passage::TileWalker walker(walker_);
+  passage::BlockWalker walker(walker_);
   DrawContext& draw = *draw_;
   if (stream_) {
     stream_->drawn(static_cast<std::uint32_t>(draw.counters.setup.triangles - 1));
   }
-  const TileWalkerCounters before = draw.counters.tile_walker;
-  const int columns_shift = memory_.block_shift;
-  const auto draw_own = [&](const TileJob& job, TileWork work, std::uint32_t steps) {
-    if (columns_.has(static_cast<std::uint32_t>(job.tile_x) >> columns_shift)) {
-      draw_job<TileSize>(triangle, job, work, steps);
+  const BlockWalkerCounters before = draw.counters.block_walker;
+  const auto draw_own = [&](const BlockJob& block, std::uint32_t empty_before) {
+    if (!columns_.has(block.block_x)) {
+      return;
     }
+    if (stream_) {
+      if (stream_->full()) {
+        stream_->give(true, nullptr);
+      }
+      stream_->block(empty_before);
+    }
+    passage::tile_walker<TileSize>(block, walker_, draw, [&](const TileJob& job, bool whole) {
+      draw_job<TileSize>(triangle, job, whole);
+    });
   };
-  const std::uint32_t steps_after = walker.walk<TileSize>(triangle, draw, draw_own);
+  const std::uint32_t empty_after = walker.walk<TileSize>(triangle, draw, draw_own);
   if (columns_.own != 0) {
-    draw.counters.tile_walker = before;  // the first thread has counted all decisions
+    draw.counters.block_walker = before;  // the first thread has counted all blocks
   }
   if (stream_) {
-    stream_->walked(steps_after);
+    stream_->walked(empty_after);
   }
 }
 
 template <int TileSize>
-void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, TileWork work,
-                        std::uint32_t steps) {
+void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, bool whole) {
   DrawContext& draw = *draw_;
-  const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, draw);
+  const Coverage coverage = passage::edge_evaluator<TileSize>(job, whole, draw);
   if (!any(coverage.mask)) {
-    tell_job(steps, 0);
+    tell_job(0);
     return;
   }
   const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
@@ -282,15 +290,12 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, TileW
                        passage::written_parts<TileSize>(passed, draw, kBands)});
     }
   }
-  tell_job(steps, burst.quads);
+  tell_job(burst.quads);
 }
 
-void FrameRun::tell_job(std::uint32_t steps, int quads) {
+void FrameRun::tell_job(int quads) {
   if (stream_) {
-    stream_->job(steps, quads);
-    if (stream_->full()) {
-      stream_->give(true, nullptr);
-    }
+    stream_->job(quads);
   }
 }
 

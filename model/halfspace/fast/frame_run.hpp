@@ -43,8 +43,8 @@ class FrameRun {
   template <int TileSize>
   void draw_by_units(const SetupTriangle& triangle);
   template <int TileSize>
-  void draw_job(const SetupTriangle& triangle, const TileJob& job, TileWork work, std::uint32_t steps);
-  void tell_job(std::uint32_t steps, int quads);
+  void draw_job(const SetupTriangle& triangle, const TileJob& job, bool whole);
+  void tell_job(int quads);
   /// Lines of a tile, a bit a part.
   void look_up(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written);
 

@@ -118,6 +118,26 @@ using WideTag = hn::Repartition<std::int64_t, Tag>;
 using WideVector = hn::Vec<WideTag>;
 inline constexpr int kWideWidth = static_cast<int>(hn::MaxLanes(WideTag()));
 
+/// Products of small numbers.
+HWY_INLINE WideVector times(WideVector l, WideVector r) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Mul(l, r);
+#else
+  return hn::MulEven(hn::BitCast(Tag(), l), hn::BitCast(Tag(), r));
+#endif
+}
+
+HWY_INLINE std::uint32_t wide_negative(WideVector v) {
+  const auto mask = hn::Lt(v, hn::Zero(WideTag()));
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  return mask.raw;
+#else
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(WideTag(), mask, bytes);
+  return bytes[0];
+#endif
+}
+
 /// The float32 nearest to words, halves upwards, as bits in 64-bit lanes: float_of_word
 /// (units/float_parts.hpp). `rebias`: see float_rebias.
 HWY_INLINE WideVector float_codes(WideVector word, WideVector rebias) {

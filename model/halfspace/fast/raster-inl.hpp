@@ -79,9 +79,9 @@ class Raster {
     if (stream != nullptr) {
       stream->drawn(static_cast<std::uint32_t>(in.order[i]));
     }
-    const std::uint32_t steps_after = walk_.triangle(t, flush);
+    const std::uint32_t empty_after = walk_.triangle(t, flush);
     if (stream != nullptr) {
-      stream->walked(steps_after);
+      stream->walked(empty_after);
     }
   }
 

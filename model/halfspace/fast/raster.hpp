@@ -1,4 +1,4 @@
-/// The kernels of the fast core: tile walker, edge evaluator, quad generator and early_z of one triangle
+/// The kernels of the fast core: walkers, edge evaluator, quad generator and early_z of one triangle
 /// after the other, with the blocks of a row, the tiles of a block or the samples of a tile in the lanes of a
 /// vector. One version an instruction set.
 #pragma once
@@ -12,7 +12,7 @@
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/stream_writer.hpp"
 #include "halfspace/units/packets.hpp"
-#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/square_edges.hpp"
 #include "halfspace/units/z_cache.hpp"
 
 namespace halfspace::fast {

@@ -19,7 +19,7 @@ HWY_INLINE std::uint64_t ones(std::uint64_t bits) { return static_cast<std::uint
 /// Tiles that the walker decided, a bit each. `accepted`: those inside each edge.
 HWY_INLINE void count_tiles(std::uint32_t rejected, std::uint32_t whole, std::uint32_t partial,
                             const std::array<std::uint32_t, 3>& accepted, Counters& counters) {
-  counters.tile_walker.tiles_rejected += ones(rejected);
+  counters.block_walker.tiles_rejected += ones(rejected);
   counters.tile_walker.tiles_accepted += ones(whole);
   counters.tile_walker.tiles_partial += ones(partial);
   std::uint64_t skipped = 0;

@@ -26,8 +26,8 @@ HWY_BEFORE_NAMESPACE();
 namespace halfspace::fast::HWY_NAMESPACE {
 namespace {
 
-/// Tile walker, edge evaluator and quad generator: turns triangles into visits, and tells the stream of the
-/// jobs. early_z takes the visits later, when what they need has come from memory.
+/// Walkers, edge evaluator and quad generator: turns triangles into visits, and tells the stream of the jobs.
+/// early_z takes the visits later, when what they need has come from memory.
 template <int TileSize>
 class Walk {
  public:
@@ -56,11 +56,11 @@ class Walk {
         group_rows_(std::min(kLanes / block_tiles_, block_tiles_)),
         groups_(std::max(1, block_tiles_ * block_tiles_ / kLanes)) {}
 
-  /// Calls flush() whenever there is no room for another visit or triangle. Returns the steps after the last
-  /// job.
+  /// Calls flush() between two blocks where there may be no room for the visits of the next. Returns the
+  /// blocks after the last job.
   template <class Flush>
   HWY_INLINE std::uint32_t triangle(Triangle& t, Flush&& flush) {
-    steps_ = 0;
+    empty_ = 0;
     const PixelRect& bounds = t.bounds;
     const bool one_tile = bounds.x_first / TileSize == bounds.x_last / TileSize &&
                           bounds.y_first / TileSize == bounds.y_last / TileSize;
@@ -74,7 +74,7 @@ class Walk {
         block_row(t, x_first, x_last, y, flush);
       }
     }
-    return steps_;
+    return empty_;
   }
 
   [[nodiscard]] std::size_t visits() const { return visit_count_; }
@@ -107,13 +107,12 @@ class Walk {
       }
       verdict = as_configured(verdict, 1);
       if (verdict.rejected != 0) {
-        ++counters_.tile_walker.blocks_rejected;
-        ++steps_;
-        count_block(x, y, TileVerdict::kReject);
+        count_rejected(t.bounds, x, y, 1);
+        ++empty_;
         return;
       }
     }
-    block(t, x, y, verdict.whole() != 0, !one_tile, flush);
+    block(t, x, y, verdict.whole() != 0, flush);
   }
 
   template <class Flush>
@@ -136,29 +135,25 @@ class Walk {
       verdict = as_configured(verdict, all);
       const std::uint32_t own = all & columns_.lanes(static_cast<std::uint32_t>(x));
       verdict.rejected &= own;
-      counters_.tile_walker.blocks_rejected += ones(verdict.rejected);
-      for (std::uint32_t left = sums_ == nullptr ? 0 : verdict.rejected; left != 0; left &= left - 1) {
-        count_block(x + std::countr_zero(left), y, TileVerdict::kReject);
-      }
+      count_rejected(t.bounds, x, y, verdict.rejected);
       const std::uint32_t whole = verdict.whole();
       const std::uint32_t accepted = own & whole & filled_blocks(t.bounds, x, y);
       int next = 0;
       for (std::uint32_t left = own & ~verdict.rejected; left != 0;) {
         const int i = std::countr_zero(left);
-        steps_ += static_cast<std::uint32_t>(i - next);
+        empty_ += static_cast<std::uint32_t>(i - next);
         if ((accepted >> i & 1) != 0) {
           // They are neighbours: no other comes between.
-          steps_ += 1;
           accepted_blocks(t, x, y, accepted, flush);
           next = std::bit_width(accepted);
           left &= ~accepted;
           continue;
         }
-        block(t, x + i, y, (whole >> i & 1) != 0, true, flush);
+        block(t, x + i, y, (whole >> i & 1) != 0, flush);
         next = i + 1;
         left &= left - 1;
       }
-      steps_ += static_cast<std::uint32_t>(count - next);
+      empty_ += static_cast<std::uint32_t>(count - next);
     }
   }
 
@@ -173,7 +168,7 @@ class Walk {
     return first < end ? (1u << end) - (1u << first) : 0;
   }
 
-  /// Blocks that are covered whole, a bit each from (x, y) on. The step of the first has been counted.
+  /// Blocks that are covered whole, a bit each from (x, y) on.
   template <class Flush>
   HWY_NOINLINE void accepted_blocks(Triangle& t, int x, int y, std::uint32_t blocks, Flush&& flush) {
     if (visit_count_ == kMostVisits) {
@@ -190,34 +185,14 @@ class Walk {
     }
     for (std::uint32_t left = blocks; left != 0; left &= left - 1) {
       const int block = x + std::countr_zero(left);
-      count_block(block, y, TileVerdict::kAccept);
+      tells_block_ = true;
       for (int group = 0; group < groups_; ++group) {
         const std::uint32_t all = all_tiles(group);
+        count_decisions(block, y, group, 0, all, 0);
         count_quads(block, y, group, all, 0, nullptr);
-        tell_jobs(all, all, all, nullptr);
+        tell_jobs(all, all, nullptr);
       }
-      steps_ += (left & (left - 1)) != 0 ? 1 : 0;
     }
-  }
-
-  /// Products of small numbers.
-  static HWY_INLINE WideVector times(WideVector l, WideVector r) {
-#if HWY_TARGET == HWY_SCALAR
-    return hn::Mul(l, r);
-#else
-    return hn::MulEven(hn::BitCast(Tag(), l), hn::BitCast(Tag(), r));
-#endif
-  }
-
-  static HWY_INLINE std::uint32_t wide_negative(WideVector v) {
-    const auto mask = hn::Lt(v, hn::Zero(WideTag()));
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-    return mask.raw;
-#else
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(WideTag(), mask, bytes);
-    return bytes[0];
-#endif
   }
 
   [[nodiscard]] HWY_INLINE Verdict as_configured(Verdict verdict, std::uint32_t all) const {
@@ -229,7 +204,7 @@ class Walk {
   }
 
   template <class Flush>
-  HWY_INLINE void block(Triangle& t, int x, int y, bool covered, bool decided, Flush&& flush) {
+  HWY_INLINE void block(Triangle& t, int x, int y, bool covered, Flush&& flush) {
     const PixelRect& bounds = t.bounds;
     const int px = x << block_shift_;
     const int py = y << block_shift_;
@@ -239,12 +214,15 @@ class Walk {
                            .y_last = std::min(bounds.y_last - py, block_size_ - 1)};
     const bool filled = inside.x_last - inside.x_first == block_size_ - 1 &&
                         inside.y_last - inside.y_first == block_size_ - 1;
-    steps_ += decided ? 1 : 0;
     if (covered && filled) {
       accepted_blocks(t, x, y, 1, flush);
       return;
     }
-    counters_.tile_walker.blocks_partial += decided ? 1 : 0;
+    if (visit_count_ + static_cast<std::size_t>(groups_) > kMostVisits) {
+      flush();
+    }
+    tells_block_ = true;
+    std::uint32_t jobs = 0;
     // Saturated: what matters is the sign inside the block.
     constexpr std::int64_t kLimit = std::int64_t{1} << 30;
     std::array<std::int32_t, 3> e{};
@@ -252,10 +230,15 @@ class Walk {
       e[k] = static_cast<std::int32_t>(std::clamp(t.at(k, px, py), -kLimit, kLimit - 1));
     }
     for (int group = 0; group < groups_; ++group) {
-      tiles(t, x, y, group, e, inside, filled, flush);
+      jobs |= tiles(t, x, y, group, e, inside, filled);
       for (std::size_t k = 0; k < 3; ++k) {
         e[k] += t.b[k] * group_rows_ * TileSize;
       }
+    }
+    ++counters_.block_walker.blocks;
+    if (jobs == 0) {
+      ++counters_.block_walker.blocks_empty;
+      ++empty_;
     }
   }
 
@@ -302,9 +285,9 @@ class Walk {
     return row * kColumns[tile_shift_] & rows;
   }
 
-  template <class Flush>
-  HWY_INLINE void tiles(Triangle& t, int x, int y, int group, const std::array<std::int32_t, 3>& e,
-                        const PixelRect& inside, bool filled, Flush&& flush) {
+  /// Returns those that are not rejected.
+  HWY_INLINE std::uint32_t tiles(Triangle& t, int x, int y, int group, const std::array<std::int32_t, 3>& e,
+                                 const PixelRect& inside, bool filled) {
     const Tag tag;
     alignas(64) std::int32_t at[3][kLanes];
     Verdict verdict;
@@ -321,7 +304,6 @@ class Walk {
     }
     std::uint32_t touched = group_lanes(group, inside.x_first / TileSize, inside.x_last / TileSize,
                                         inside.y_first / TileSize, inside.y_last / TileSize);
-    const std::uint32_t decided = touched;
     verdict = as_configured(verdict, touched);
     touched &= ~verdict.rejected;
     std::uint32_t whole = verdict.whole() & touched;
@@ -334,11 +316,7 @@ class Walk {
     count_tiles(verdict.rejected, whole, partial, verdict.accepted, counters_);
     count_decisions(x, y, group, verdict.rejected, whole, partial);
     if (touched == 0) {
-      steps_ += static_cast<std::uint32_t>(ones(decided));
-      return;
-    }
-    if (visit_count_ == kMostVisits) {
-      flush();
+      return 0;
     }
     Visit& visit = begin_visit(t, x, y, group);
     visit.whole = static_cast<std::uint16_t>(whole);
@@ -373,7 +351,8 @@ class Walk {
         static_cast<std::uint64_t>(std::popcount(partial) - std::popcount(visit.partial));
     visit_count_ += (visit.whole | visit.partial) != 0 ? 1 : 0;
     count_quads(x, y, group, visit.whole, visit.partial, masks(visit));
-    tell_jobs(decided, touched, whole, quads.data());
+    tell_jobs(touched, whole, quads.data());
+    return touched;
   }
 
   // ---- what is counted of them ----
@@ -381,8 +360,8 @@ class Walk {
   /// Blocks that are covered whole.
   void count_accepted(std::uint64_t blocks) {
     const std::uint64_t tiles = blocks << 2 * tile_shift_;
-    counters_.tile_walker.blocks_accepted += blocks;
-    counters_.tile_walker.tiles_by_block += tiles;
+    counters_.block_walker.blocks += blocks;
+    counters_.tile_walker.tiles_accepted += tiles;
     counters_.edge_evaluator.tiles_skipped += tiles;
     count_whole(tiles);
   }
@@ -407,10 +386,33 @@ class Walk {
     return quads;
   }
 
-  /// A block that is decided for all its tiles.
-  void count_block(int x, int y, TileVerdict verdict) {
-    if (sums_ != nullptr) {
-      passage::count_decision<TileSize>(*sums_, x << block_shift_, y << block_shift_, block_size_, verdict);
+  /// Blocks outside one edge, a bit each from (x, y) on.
+  HWY_INLINE void count_rejected(const PixelRect& bounds, int x, int y, std::uint32_t blocks) {
+    constexpr int kTileShift = TileSize == 8 ? 3 : 2;
+    const int first_row = std::max(bounds.y_first, y << block_shift_) >> kTileShift;
+    const int last_row = std::min(bounds.y_last, ((y + 1) << block_shift_) - 1) >> kTileShift;
+    // Of the first block of the bounds and of the last not all columns count.
+    std::uint64_t columns = ones(blocks) << tile_shift_;
+    const auto has = [&](int block) {
+      return block >= x && block - x < kWideWidth && (blocks >> (block - x) & 1) != 0;
+    };
+    if (const int first = bounds.x_first >> block_shift_; has(first)) {
+      columns -= static_cast<std::uint64_t>((bounds.x_first >> kTileShift) - (first << tile_shift_));
+    }
+    if (const int last = bounds.x_last >> block_shift_; has(last)) {
+      columns -= static_cast<std::uint64_t>(((last + 1) << tile_shift_) - 1 - (bounds.x_last >> kTileShift));
+    }
+    counters_.block_walker.blocks += ones(blocks);
+    counters_.block_walker.blocks_empty += ones(blocks);
+    counters_.block_walker.tiles_rejected += columns * static_cast<std::uint64_t>(last_row - first_row + 1);
+    for (std::uint32_t left = sums_ == nullptr ? 0 : blocks; left != 0; left &= left - 1) {
+      const int px = (x + std::countr_zero(left)) << block_shift_;
+      const int last = std::min(bounds.x_last, px + block_size_ - 1) >> kTileShift;
+      for (int row = first_row; row <= last_row; ++row) {
+        for (int column = std::max(bounds.x_first, px) >> kTileShift; column <= last; ++column) {
+          passage::count(sums_->decisions.at(column, row), TileVerdict::kReject);
+        }
+      }
     }
   }
 
@@ -447,22 +449,21 @@ class Walk {
     }
   }
 
-  /// Of a group of tiles those that were decided, the jobs among them, and of these the ones that are covered
-  /// whole. `quads`: of the others, by lane.
-  HWY_INLINE void tell_jobs(std::uint32_t decided, std::uint32_t jobs, std::uint32_t whole,
-                            const std::uint8_t* quads) {
-    if (stream_ == nullptr) {
+  /// Of a group of tiles the jobs, and of these the ones that are covered whole. `quads`: of the others, by
+  /// lane.
+  HWY_INLINE void tell_jobs(std::uint32_t jobs, std::uint32_t whole, const std::uint8_t* quads) {
+    if (stream_ == nullptr || jobs == 0) {
       return;
+    }
+    if (tells_block_) {
+      stream_->block(empty_);
+      empty_ = 0;
+      tells_block_ = false;
     }
     for (std::uint32_t left = jobs; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);
-      const std::uint32_t upto = decided & ((2u << i) - 1);
-      decided &= ~upto;
-      stream_->job(steps_ + static_cast<std::uint32_t>(ones(upto)),
-                   (whole >> i & 1) != 0 ? static_cast<int>(kQuads) : quads[i]);
-      steps_ = 0;
+      stream_->job((whole >> i & 1) != 0 ? static_cast<int>(kQuads) : quads[i]);
     }
-    steps_ += static_cast<std::uint32_t>(ones(decided));
   }
 
   /// Tiles of a visit whose samples will all die: what is written until their turn comes does not change
@@ -553,7 +554,8 @@ class Walk {
   std::array<Visit, kMostVisits> visits_;
   std::array<std::uint64_t, kMostVisits * kLanes> masks_;
   std::size_t visit_count_ = 0;
-  std::uint32_t steps_ = 0;  ///< since the last job; where there is a stream
+  std::uint32_t empty_ = 0;   ///< blocks since the last job; where there is a stream
+  bool tells_block_ = false;  ///< with the first job of the block at work
   std::uint32_t mask_count_ = 0;
 };
 

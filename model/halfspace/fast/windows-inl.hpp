@@ -47,7 +47,7 @@ struct WindowBatch {
   }
 };
 
-/// Tile walker, edge evaluator and quad generator of small triangles, one a lane: each within a window of
+/// Walkers, edge evaluator and quad generator of small triangles, one a lane: each within a window of
 /// Side x Side samples that begins at a quad. A window, no larger than a tile, lies on one, two or four.
 template <int TileSize, int Side>
 class Windows {
@@ -231,15 +231,8 @@ class Windows {
     const Vector tile_y = square(y_first_, kTileShift);
     const std::uint32_t wide = all_ & bits_of(hn::Gt(square(x_last_, kTileShift), tile_x));
     const std::uint32_t tall = all_ & bits_of(hn::Gt(square(y_last_, kTileShift), tile_y));
-    const std::uint32_t several = wide | tall;
-    std::array<std::uint32_t, 4> blocked{};  // tiles whose block is rejected
-    several_ = several;
-    two_x_ = 0;
-    found.columns_first = 0;
     own_columns();
-    if (several != 0) {
-      decide_blocks(several, blocked);
-    }
+    find_blocks();
     // Columns and rows on the first tile and on the second.
     const auto split = [&](Vector tile, Vector begin, std::uint32_t lanes, Vector* parts) HWY_ATTR {
       const Vector border = hn::Sub(hn::ShiftLeft<kTileShift>(hn::Add(tile, set(1))), begin);
@@ -253,7 +246,7 @@ class Windows {
     split(tile_y, found.y, tall, rows);
     found.hit = 0;
     for (unsigned q = 0; q < 4; ++q) {
-      std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u) & ~blocked[q];
+      std::uint32_t there = all_ & ((q & 1) != 0 ? wide : ~0u) & ((q & 2) != 0 ? tall : ~0u);
       there &= (q & 1) != 0 ? (two_x_ & own_[1]) | (own_[0] & ~two_x_) : own_[0];
       found.covered[q] = 0;
       decided_[q] = there;
@@ -288,6 +281,7 @@ class Windows {
                hn::Add(tile_y, set(static_cast<std::int32_t>(q >> 1))));
       }
     }
+    count_blocks();
   }
 
   /// Windows whose first column of blocks, and whose second, are the task's.
@@ -299,35 +293,34 @@ class Windows {
     own_[1] = bits_of(hn::Eq(hn::And(hn::Add(column, set(1)), mask), own));
   }
 
-  void decide_blocks(std::uint32_t several, std::array<std::uint32_t, 4>& blocked) {
-    const Vector first_x = hn::ShiftRightSame(x_first_, block_shift_);
-    const Vector first_y = hn::ShiftRightSame(y_first_, block_shift_);
-    const std::uint32_t two_x = several & bits_of(hn::Gt(hn::ShiftRightSame(x_last_, block_shift_), first_x));
-    const std::uint32_t two_y = several & bits_of(hn::Gt(hn::ShiftRightSame(y_last_, block_shift_), first_y));
-    two_x_ = two_x;
-    two_y_ = two_y;
-    found.columns_first = two_x & ~two_y;
-    for (unsigned q = 0; q < 4; ++q) {
+  /// The blocks that the windows lie on.
+  void find_blocks() {
+    const auto crosses = [&](Vector first, Vector last) HWY_ATTR {
+      return all_ &
+             bits_of(hn::Gt(hn::ShiftRightSame(last, block_shift_), hn::ShiftRightSame(first, block_shift_)));
+    };
+    two_x_ = crosses(x_first_, x_last_);
+    two_y_ = crosses(y_first_, y_last_);
+    found.columns_first = two_x_ & ~two_y_;
+  }
+
+  /// Blocks, and those without a job. A border of tiles that is not one of blocks is inside a block.
+  void count_blocks() {
+    BlockWalkerCounters& counters = counters_.block_walker;
+    for (unsigned block = 0; block < 4; ++block) {
       const std::uint32_t there =
-          several & ((q & 1) != 0 ? two_x : ~0u) & ((q & 2) != 0 ? two_y : ~0u) & own_[q & 1];
-      blocks_[q] = there;
+          all_ & ((block & 1) != 0 ? two_x_ : ~0u) & ((block & 2) != 0 ? two_y_ : ~0u) & own_[block & 1];
       if (there == 0) {
         continue;
       }
-      std::uint32_t rejected = 0;
-      std::array<std::uint32_t, 3> accepted{};
-      corners(hn::ShiftLeftSame(hn::Add(first_x, set(static_cast<std::int32_t>(q & 1))), block_shift_),
-              hn::ShiftLeftSame(hn::Add(first_y, set(static_cast<std::int32_t>(q >> 1))), block_shift_),
-              1 << block_shift_, rejected, accepted);
-      rejected &= there;
-      counters_.tile_walker.blocks_rejected += ones(rejected);
-      counters_.tile_walker.blocks_partial += ones(there & ~rejected);
-      // Its tiles: a border of tiles that is not one of blocks is inside.
+      std::uint32_t with_job = 0;
       for (unsigned tile = 0; tile < 4; ++tile) {
-        const std::uint32_t same_x = (tile & 1) == (q & 1) ? ~0u : (tile & 1) != 0 ? ~two_x : 0;
-        const std::uint32_t same_y = (tile & 2) == (q & 2) ? ~0u : (tile & 2) != 0 ? ~two_y : 0;
-        blocked[tile] |= rejected & same_x & same_y;
+        const std::uint32_t same_x = (tile & 1) == (block & 1) ? ~0u : (tile & 1) != 0 ? ~two_x_ : 0;
+        const std::uint32_t same_y = (tile & 2) == (block & 2) ? ~0u : (tile & 2) != 0 ? ~two_y_ : 0;
+        with_job |= jobs_[tile] & same_x & same_y;
       }
+      counters.blocks += ones(there);
+      counters.blocks_empty += ones(there & ~with_job);
     }
   }
 
@@ -379,26 +372,33 @@ class Windows {
         tag, found.entry[q]);
   }
 
-  /// Returns the steps after the last job.
+  /// Returns the blocks after the last job.
   std::uint32_t tell_jobs(std::size_t lane, StreamWriter& stream) const {
     const auto is_set = [lane](std::uint32_t lanes) { return (lanes >> lane & 1) != 0; };
-    const bool has_blocks = is_set(several_);
-    const bool two_x = has_blocks && is_set(two_x_);
-    const bool two_y = has_blocks && is_set(two_y_);
-    std::uint32_t steps = 0;
+    std::uint32_t empty = 0;
     std::size_t last_block = 4;
+    bool has_job = true;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t q = found.tile_in_order(lane, i);
-      const std::size_t block = (two_x ? q & 1 : 0) | (two_y ? q & 2 : 0);
-      steps += has_blocks && block != last_block && is_set(blocks_[block]) ? 1 : 0;
-      last_block = block;
-      steps += is_set(decided_[q]) ? 1 : 0;
+      if (!is_set(decided_[q])) {
+        continue;
+      }
+      const std::size_t block = (is_set(two_x_) ? q & 1 : 0) | (is_set(two_y_) ? q & 2 : 0);
+      if (block != last_block) {
+        empty += has_job ? 0 : 1;
+        has_job = false;
+        last_block = block;
+      }
       if (is_set(jobs_[q])) {
-        stream.job(steps, is_set(found.covered[q]) ? quads_[q][lane] : 0);
-        steps = 0;
+        if (!has_job) {
+          stream.block(empty);
+          empty = 0;
+          has_job = true;
+        }
+        stream.job(is_set(found.covered[q]) ? quads_[q][lane] : 0);
       }
     }
-    return steps;
+    return empty + (has_job ? 0 : 1);
   }
 
   const RasterTask& task_;
@@ -420,11 +420,9 @@ class Windows {
 
   std::array<std::uint32_t, 2> own_{};
   // Of the walk, for the stream: bits of lanes.
-  std::uint32_t several_ = 0;               ///< with more tiles than one, so with blocks
   std::uint32_t two_x_ = 0;                 ///< with two blocks in a row
   std::uint32_t two_y_ = 0;                 ///< and in a column
-  std::array<std::uint32_t, 4> blocks_{};   ///< that are decided
-  std::array<std::uint32_t, 4> decided_{};  ///< tiles
+  std::array<std::uint32_t, 4> decided_{};  ///< tiles within bounds
   std::array<std::uint32_t, 4> jobs_{};     ///< of these, not rejected
   alignas(64) std::int32_t quads_[4][kWidth];
 

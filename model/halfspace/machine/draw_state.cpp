@@ -46,9 +46,8 @@ PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule) {
 
 WalkerConfig walker_config(const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
-          .block_size = config.tile_walker.block_size,
-          .block_level = config.tile_walker.block_level,
-          .trivial_reject = config.tile_walker.trivial_reject,
+          .block_size = config.block_walker.block_size,
+          .trivial_reject = config.block_walker.trivial_reject,
           .trivial_accept = config.tile_walker.trivial_accept};
 }
 

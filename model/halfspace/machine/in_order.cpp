@@ -7,6 +7,7 @@
 
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/machine/frame_source.hpp"
+#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -64,14 +65,15 @@ class InOrderRun {
         config_(config),
         observer_(watch.observer),
         reader_(reader),
-        walker_(walker_config(config)),
+        walk_(walker_config(config)),
+        walker_(walk_),
         quads_(watch.observer, static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {
     result_.surfaces = make_surfaces(frame, config, watch);
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));
     if (reader != nullptr) {
-      stream_.emplace(*reader, frame.name);
+      stream_.emplace(*reader);
       wants_tiles_ = reader->wants_tiles();
       wants_cycles_ = shows_cycles(watch, *reader);
       reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
@@ -130,30 +132,37 @@ class InOrderRun {
     if (stream_) {
       stream_->drawn(static_cast<std::uint32_t>(draw_->counters.setup.triangles - 1));
     }
-    const std::uint32_t steps_after = walker_.walk<TileSize>(
-        triangle_, *draw_,
-        [this](const TileJob& job, TileWork work, std::uint32_t steps) { this->job(job, work, steps); });
+    const std::uint32_t empty_after = walker_.walk<TileSize>(
+        triangle_, *draw_, [this](const BlockJob& block, std::uint32_t empty) { this->block(block, empty); });
     if (stream_) {
-      stream_->walked(steps_after);
+      stream_->walked(empty_after);
       if (stream_->full()) {
         give(false);
       }
     }
   }
 
-  void job(const TileJob& job, TileWork work, std::uint32_t steps) {
-    const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, *draw_);
+  void block(const BlockJob& block, std::uint32_t empty_before) {
+    if (stream_) {
+      if (stream_->full()) [[unlikely]] {
+        give(true);
+      }
+      stream_->block(empty_before);
+    }
+    passage::tile_walker<TileSize>(block, walk_, *draw_,
+                                   [this](const TileJob& job, bool whole) { this->job(job, whole); });
+  }
+
+  void job(const TileJob& job, bool whole) {
+    const Coverage coverage = passage::edge_evaluator<TileSize>(job, whole, *draw_);
     int quads = 0;
     if (any(coverage.mask)) {
       quads = burst(passage::quad_generator<TileSize>(coverage, *draw_));
     }
     if (stream_) {
-      stream_->job(steps, quads);
+      stream_->job(quads);
       if (wants_tiles_) {
         stream_->tile({.x = std::uint32_t{job.tile_x} * TileSize, .y = std::uint32_t{job.tile_y} * TileSize});
-      }
-      if (stream_->full()) [[unlikely]] {
-        give(true);
       }
     }
   }
@@ -232,7 +241,8 @@ class InOrderRun {
   FrameResult result_;
   std::vector<ZSurface> places_;  ///< by surface
   std::deque<DrawContext> draws_;
-  passage::TileWalker walker_;
+  WalkerConfig walk_;
+  passage::BlockWalker walker_;
   ZCache z_cache_;
 
   std::optional<StreamWriter> stream_;  ///< where somebody reads

@@ -25,14 +25,13 @@ struct QuadEvent {
   std::uint64_t cycle = 0;               ///< leaves early_z; 0 when untimed
 };
 
-/// A decision of the walker.
+/// A decision about a tile.
 struct DecisionEvent {
   std::uint32_t draw = 0;
   std::uint32_t triangle = 0;
   std::uint32_t surface = kNoSurface;
-  std::uint32_t x = 0;  ///< top left pixel
-  std::uint32_t y = 0;
-  std::uint32_t size = 0;
+  std::uint32_t tile_x = 0;
+  std::uint32_t tile_y = 0;
   TileVerdict verdict = TileVerdict::kReject;
 };
 

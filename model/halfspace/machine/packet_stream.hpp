@@ -1,9 +1,9 @@
 /// The packets of a frame as a stream: all that time depends on, and nothing that only function needs.
 ///
 /// Whoever runs the units writes it (machine/in_order.hpp), in chunks; whoever has time reads it: the
-/// recurrence, its lanes, the record. A tile job is one word whatever it holds, and a burst that has to do
-/// with stored depth one more. Chunks may end anywhere, also inside a triangle; put together in order they
-/// are the stream of the frame.
+/// recurrence, its lanes, the record. A tile job is one byte whatever it holds, and a burst that has to do
+/// with stored depth a word more. Chunks may end anywhere, also inside a triangle, but not inside a block;
+/// put together in order they are the stream of the frame.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,26 @@
 
 namespace halfspace {
 
-/// Steps that a StreamJob can hold.
-inline constexpr std::uint32_t kMostSteps = 1u << 24;
-
-/// A tile job: steps of the walker since the job before, its own included, 1 to kMostSteps; and its quads, 0
-/// to 64. 0: no sample is covered, and nothing leaves the quad generator.
-class StreamJob {
+/// A block job: the blocks without a tile that the walker visited since the job before, and its tile jobs, 1
+/// to 64.
+class StreamBlock {
  public:
-  StreamJob() = default;
-  StreamJob(std::uint32_t steps, int quads) : word_((steps - 1) | static_cast<std::uint32_t>(quads) << 24) {}
-  explicit StreamJob(std::uint32_t word) : word_(word) {}
-  [[nodiscard]] std::uint32_t steps() const { return (word_ & 0xFFFFFFu) + 1; }
-  [[nodiscard]] int quads() const { return static_cast<int>(word_ >> 24); }
+  StreamBlock() = default;
+  StreamBlock(std::uint32_t empty_before, int jobs)
+      : word_(empty_before | static_cast<std::uint32_t>(jobs) << 24) {}
+  explicit StreamBlock(std::uint32_t word) : word_(word) {}
+  /// A screen has no more than 2^22 blocks.
+  [[nodiscard]] std::uint32_t empty_before() const { return word_ & 0xFFFFFFu; }
+  [[nodiscard]] int jobs() const { return static_cast<int>(word_ >> 24); }
+  void add_job() { word_ += 1u << 24; }
   [[nodiscard]] std::uint32_t word() const { return word_; }
 
  private:
   std::uint32_t word_ = 0;
 };
+
+/// A tile job: its quads, 0 to 64. 0: no sample is covered, and nothing leaves the quad generator.
+using StreamJob = std::uint8_t;
 
 /// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
 /// half in tiles of 4 x 4), that it touches and writes.
@@ -57,8 +60,8 @@ constexpr int stream_bands(int tile_size) { return tile_size == 4 ? 2 : 4; }
 /// A triangle that setup gave to the walker, with the dropped ones before it.
 struct StreamTriangle {
   std::uint32_t dropped_before = 0;
-  std::uint32_t jobs = 0;
-  std::uint32_t steps_after = 0;  ///< of the walker, after the last job
+  std::uint32_t blocks = 0;       ///< jobs of them
+  std::uint32_t empty_after = 0;  ///< blocks without a tile, after the last job
 };
 
 /// What the machine does in one go.
@@ -81,6 +84,7 @@ struct StreamSurface {
 struct PacketStream {
   std::vector<StreamSegment> segments;
   std::vector<StreamTriangle> triangles;
+  std::vector<StreamBlock> blocks;
   std::vector<StreamJob> jobs;
   std::vector<StreamAccess> accesses;  ///< of the bursts of segments that touch depth
 };
@@ -110,6 +114,7 @@ struct StreamTile {
 struct StreamView {
   std::span<const StreamSegment> segments;
   std::span<const StreamTriangle> triangles;
+  std::span<const StreamBlock> blocks;
   std::span<const StreamJob> jobs;
   std::span<const StreamAccess> accesses;  ///< empty where the reader did not ask for them
   std::span<const ZMiss> misses;           ///< see ZMissStream

@@ -11,7 +11,7 @@
 
 namespace halfspace {
 
-/// Decisions of the walker about a tile; one about a block counts for each of its tiles.
+/// Decisions about a tile.
 struct TileDecisions {
   std::uint32_t rejected = 0;
   std::uint32_t accepted = 0;

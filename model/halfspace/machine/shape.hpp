@@ -21,7 +21,8 @@ namespace halfspace {
 /// that it has nothing to do. In the order of the pipe.
 #define HALFSPACE_STAGES(S)                                                                                    \
   S(Setup,         setup,          Triangle, "no_triangle", "divider", "no_credit")                            \
-  S(TileWalker,    tile_walker,    Triangle, "no_triangle", "load", "no_credit")                               \
+  S(BlockWalker,   block_walker,   Triangle, "no_triangle", "load", "no_credit")                               \
+  S(TileWalker,    tile_walker,    Block,    "no_block", "no_credit")                                          \
   S(EdgeEvaluator, edge_evaluator, Job,      "no_tile", "no_credit")                                           \
   S(QuadGenerator, quad_generator, Job,      "no_coverage", "no_credit")                                       \
   S(ZLookup,       z_lookup,       Burst,    "no_burst", "pending_full", "write_back", "fill_buffers", "request") \
@@ -34,7 +35,8 @@ namespace halfspace {
   L(SetupQueue,    setup_queue,     setup.queue,          4,                     std::nullopt)                 \
   L(Setup,         setup,           setup.fifo,                                                                \
     config.depth.interpolator == DepthInterpolator::kPlane ? 35 : 18 /* a division */, StallPoint::kSetup)     \
-  L(TileWalker,    tile_walker,     tile_walker.fifo,     2,                     StallPoint::kTileWalker)      \
+  L(BlockWalker,   block_walker,    block_walker.fifo,    2,                     StallPoint::kBlockWalker)     \
+  L(TileWalker,    tile_walker,     tile_walker.fifo,     3,                     StallPoint::kTileWalker)      \
   L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo,                                                       \
     config.edge_evaluator.pipe_stages + 1 /* and the output register */,         StallPoint::kEdgeEvaluator)   \
   L(QuadGenerator, quad_generator,  quad_generator.fifo,  2,                     StallPoint::kQuadGenerator)   \
@@ -52,6 +54,7 @@ namespace halfspace {
 #define HALFSPACE_STALL_POINTS(P)                                                                            \
   P(Source,        source)                                                                                   \
   P(Setup,         setup)                                                                                    \
+  P(BlockWalker,   block_walker)                                                                             \
   P(TileWalker,    tile_walker)                                                                              \
   P(EdgeEvaluator, edge_evaluator)                                                                           \
   P(QuadGenerator, quad_generator)                                                                           \
@@ -60,7 +63,9 @@ namespace halfspace {
 /// E(Identifier, meaning): what can happen in a cycle of the RTL, a bit each in the probe of its bench.
 #define HALFSPACE_EVENTS(E)                                                                                  \
   E(Decide,    "setup draws or drops a triangle")                                                            \
-  E(Accept,    "tile_walker takes a triangle")                                                               \
+  E(Accept,    "block_walker takes a triangle")                                                              \
+  E(Block,     "block_walker makes a block job")                                                             \
+  E(BlockDone, "tile_walker makes the last tile job of a block job")                                         \
   E(Emit,      "tile_walker makes a tile job")                                                               \
   E(Job,       "edge_evaluator takes a tile job")                                                            \
   E(Coverage,  "quad_generator takes a coverage")                                                            \
@@ -81,8 +86,8 @@ inline constexpr std::size_t kStages = HALFSPACE_STAGES(HALFSPACE_ONE);
 
 inline constexpr std::size_t kMostStallReasons = 5;
 
-/// A burst belongs to a tile job, and that to a triangle.
-enum class PacketKind : std::uint8_t { kTriangle, kJob, kBurst };
+/// A burst belongs to a tile job, that to a block job, and that to a triangle.
+enum class PacketKind : std::uint8_t { kTriangle, kBlock, kJob, kBurst };
 
 struct StageInfo {
   std::string_view name;
@@ -110,8 +115,9 @@ namespace stall {
 inline constexpr std::size_t kNoInput = 0;
 inline constexpr std::size_t kSetupDivider = stall_reason(Stage::kSetup, "divider");
 inline constexpr std::size_t kSetupNoCredit = stall_reason(Stage::kSetup, "no_credit");
-inline constexpr std::size_t kWalkerLoad = stall_reason(Stage::kTileWalker, "load");
-inline constexpr std::size_t kWalkerNoCredit = stall_reason(Stage::kTileWalker, "no_credit");
+inline constexpr std::size_t kBlockLoad = stall_reason(Stage::kBlockWalker, "load");
+inline constexpr std::size_t kBlockNoCredit = stall_reason(Stage::kBlockWalker, "no_credit");
+inline constexpr std::size_t kTileNoCredit = stall_reason(Stage::kTileWalker, "no_credit");
 inline constexpr std::size_t kEdgeNoCredit = stall_reason(Stage::kEdgeEvaluator, "no_credit");
 inline constexpr std::size_t kQuadNoCredit = stall_reason(Stage::kQuadGenerator, "no_credit");
 inline constexpr std::size_t kLookupPendingFull = stall_reason(Stage::kZLookup, "pending_full");

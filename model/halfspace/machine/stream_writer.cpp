@@ -1,15 +1,9 @@
 #include "halfspace/machine/stream_writer.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
-#include "halfspace/numerics/error.hpp"
-
 namespace halfspace {
 
-StreamWriter::StreamWriter(StreamReader& reader, std::string frame)
-    : reader_(reader), wants_accesses_(reader.wants_accesses()), frame_(std::move(frame)) {}
+StreamWriter::StreamWriter(StreamReader& reader)
+    : reader_(reader), wants_accesses_(reader.wants_accesses()) {}
 
 void StreamWriter::begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth) {
   packets_.segments.push_back({.kind = kind, .surface = surface, .touches_depth = touches_depth ? 1u : 0u});
@@ -22,15 +16,11 @@ void StreamWriter::end_segment(std::uint64_t triangles) {
   in_segment_ = false;
 }
 
-void StreamWriter::refuse_steps(std::uint32_t steps) const {
-  throw InputError(fmt::format("{}: {} steps of the walker without a tile job; legal: at most {}", frame_,
-                               steps, kMostSteps));
-}
-
 void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycles) {
   z_.burst.push_back(kNoBurst);
   reader_.read({.segments = packets_.segments,
                 .triangles = packets_.triangles,
+                .blocks = packets_.blocks,
                 .jobs = packets_.jobs,
                 .accesses = packets_.accesses,
                 .misses = z_.misses,
@@ -45,6 +35,7 @@ void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycl
   const StreamSegment segment = packets_.segments.empty() ? StreamSegment{} : packets_.segments.back();
   packets_.segments.clear();
   packets_.triangles.clear();
+  packets_.blocks.clear();
   packets_.jobs.clear();
   packets_.accesses.clear();
   z_.misses.clear();

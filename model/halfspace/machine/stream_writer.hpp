@@ -3,36 +3,36 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "halfspace/machine/packet_stream.hpp"
 
 namespace halfspace {
 
-/// Gives `reader` a part whenever one is long enough, and the rest at the end. `frame` is for errors.
+/// Gives `reader` a part whenever one is long enough, and the rest at the end.
 class StreamWriter {
  public:
-  StreamWriter(StreamReader& reader, std::string frame);
+  explicit StreamWriter(StreamReader& reader);
 
   void begin_segment(StreamSegment::Kind kind, std::uint32_t surface, bool touches_depth);
   /// `triangles`: that setup has seen in the segment.
   void end_segment(std::uint64_t triangles);
 
-  /// Setup gave a triangle to the walker, whose tile jobs follow: the segment's triangle `number`, from 0.
+  /// Setup gave a triangle to the walker, whose block jobs follow: the segment's triangle `number`, from 0.
   /// Those since the last one were dropped.
   void drawn(std::uint32_t number) {
-    packets_.triangles.push_back({.dropped_before = number - seen_, .jobs = 0, .steps_after = 0});
+    packets_.triangles.push_back({.dropped_before = number - seen_, .blocks = 0, .empty_after = 0});
     seen_ = number + 1;
     ++packets_.segments.back().triangles;
   }
-  /// A tile job. Throws InputError where it took more than kMostSteps.
-  void job(std::uint32_t steps, int quads) {
-    if (steps > kMostSteps) [[unlikely]] {
-      refuse_steps(steps);
-    }
-    ++packets_.triangles.back().jobs;
-    packets_.jobs.emplace_back(steps, quads);
+  /// A block job, whose tile jobs follow.
+  void block(std::uint32_t empty_before) {
+    ++packets_.triangles.back().blocks;
+    packets_.blocks.emplace_back(empty_before, 0);
+  }
+  void job(int quads) {
+    packets_.blocks.back().add_job();
+    packets_.jobs.push_back(static_cast<StreamJob>(quads));
   }
   /// So many bursts have to do with stored depth, in the order of their jobs; what they missed in the z cache
   /// has been said.
@@ -54,25 +54,22 @@ class StreamWriter {
   void access(const StreamAccess& access) { packets_.accesses.push_back(access); }
   /// Where the last job is, for readers that want tiles.
   void tile(const StreamTile& tile) { tiles_.push_back(tile); }
-  /// The triangle is done, with so many steps after its last job.
-  void walked(std::uint32_t steps) { packets_.triangles.back().steps_after = steps; }
+  /// The triangle is done, with so many empty blocks after its last job.
+  void walked(std::uint32_t empty) { packets_.triangles.back().empty_after = empty; }
 
   /// Whether the part is long enough to be given away.
   [[nodiscard]] bool full() const {
     return packets_.jobs.size() >= kPartJobs || packets_.triangles.size() >= kPartJobs;
   }
-  /// Gives the part away. In a triangle: before walked().
+  /// Gives the part away. In a triangle: between two of its blocks.
   void give(bool in_triangle, std::vector<std::uint64_t>* burst_cycles);
 
  private:
   /// Enough to amortise the call, few enough to stay in the processor's first cache.
   static constexpr std::size_t kPartJobs = 1024;
 
-  [[noreturn]] void refuse_steps(std::uint32_t steps) const;
-
   StreamReader& reader_;
   bool wants_accesses_;
-  std::string frame_;
   PacketStream packets_;
   ZMissStream z_;
   std::vector<StreamTile> tiles_;

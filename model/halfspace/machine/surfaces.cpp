@@ -43,7 +43,7 @@ std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, con
       surface.visible = {shape.width, shape.height, tile_size, kNothingVisible};
     }
     if (watch.keep_sums) {
-      surface.sums = {shape.width, shape.height, tile_size, config.tile_walker.block_size};
+      surface.sums = {shape.width, shape.height, tile_size, config.block_walker.block_size};
     }
   }
   return surfaces;

@@ -10,6 +10,7 @@ void ThreadedReader::Part::copy(const StreamView& part) {
   view = part;
   keep(packets.segments, view.segments);
   keep(packets.triangles, view.triangles);
+  keep(packets.blocks, view.blocks);
   keep(packets.jobs, view.jobs);
   keep(packets.accesses, view.accesses);
   keep(z.misses, view.misses);

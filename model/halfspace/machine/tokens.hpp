@@ -7,17 +7,23 @@
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/units/packets.hpp"
-#include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace {
 
-/// Kept as long as a token needs it; hardware has a table of them, of which TileJob::slot is the index.
+/// Kept as long as a token needs it; hardware has a table of them, of which BlockJob::slot is the index.
 using TrianglePointer = std::shared_ptr<const SetupTriangle>;
 
-/// setup -> tile_walker. Without a triangle: one that setup drops.
+/// setup -> block_walker. Without a triangle: one that setup drops.
 struct TriangleToken {
   DrawContext* draw = nullptr;
   TrianglePointer triangle;
+};
+
+/// block_walker -> tile_walker.
+struct BlockToken {
+  DrawContext* draw = nullptr;
+  TrianglePointer triangle;
+  BlockJob block;
 };
 
 /// tile_walker -> edge_evaluator.
@@ -25,7 +31,7 @@ struct JobToken {
   DrawContext* draw = nullptr;
   TrianglePointer triangle;
   TileJob job;
-  TileWork work = TileWork::kEvaluate;
+  bool whole = false;  ///< all samples of the tile are covered
 };
 
 /// edge_evaluator -> quad_generator.

@@ -18,6 +18,9 @@ namespace halfspace {
   W(PixelBits,       14,                                               "pixel coordinate on a screen of at most 16384") \
   W(TileLog2,        (TileSize == 4 ? 2 : TileSize == 8 ? 3 : 4),      "pixel coordinate inside a tile")             \
   W(TileCoordBits,   PixelBits - TileLog2,                             "coordinate of a tile on the screen")         \
+  W(BlockTiles,      BlockSize * BlockSize / (TileSize * TileSize),    "tiles of a block: a mask, bit y * BlockSize / TileSize + x") \
+  W(BlockLog2,       TileLog2 + (BlockTiles == 4 ? 1 : BlockTiles == 16 ? 2 : 3), "pixel coordinate inside a block") \
+  W(BlockCoordBits,  PixelBits - BlockLog2,                            "coordinate of a block on the screen")        \
   W(LocalEdgeBits,   StepBits + TileLog2 + 2,                          "edge value inside one tile, saturated at the tile origin") \
   W(MaskBits,        TileSize * TileSize,                              "coverage mask of a tile, bit y * TileSize + x") \
   W(EdgeCount,       3,                                                "edges of a triangle: one accept bit each")     \

@@ -175,6 +175,7 @@ std::string raster_pkg() {
   add_signed_types<ScreenTrianglePacket>(types);
   add_signed_types<SetupTrianglePacket>(types);
   add_signed_types<DepthEquationPacket>(types);
+  add_signed_types<BlockJob>(types);
   add_signed_types<TileJob>(types);
   add_signed_types<Coverage>(types);
   add_signed_types<QuadBeat>(types);
@@ -187,9 +188,11 @@ std::string raster_pkg() {
       packed_struct<ScreenTrianglePacket>("screen_triangle_t", "front end -> setup: on the sub-pixel grid");
   text +=
       packed_struct<DrawStatePacket>("draw_state_t", "the state of a draw, as it travels with its triangles");
-  text += packed_struct<SetupTrianglePacket>("setup_triangle_t", "setup -> tile_walker: what the walk needs");
+  text +=
+      packed_struct<SetupTrianglePacket>("setup_triangle_t", "setup -> block_walker: what the walk needs");
   text += packed_struct<DepthEquationPacket>("depth_equation_t",
-                                             "setup -> early_z, by way of the slots of tile_walker");
+                                             "setup -> early_z, by way of the slots of block_walker");
+  text += packed_struct<BlockJob>("block_job_t", "block_walker -> tile_walker");
   text += packed_struct<TileJob>("tile_job_t", "tile_walker -> edge_evaluator");
   text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
   text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");

@@ -18,7 +18,7 @@ struct QuadRecord {
 
 /// A record of tiles.npy.
 struct TileRecord {
-  std::uint32_t draw, triangle, x, y, size;
+  std::uint32_t draw, triangle, tile_x, tile_y;
   std::uint8_t verdict;
 };
 #pragma pack(pop)
@@ -28,7 +28,7 @@ constexpr const char* kQuadDescr =
     "u1'),"
     "('depth','<u4',(4,)),('cycle','<u8')]";
 constexpr const char* kTileDescr =
-    "[('draw','<u4'),('triangle','<u4'),('x','<u4'),('y','<u4'),('size','<u4'),('verdict','|u1')]";
+    "[('draw','<u4'),('triangle','<u4'),('tile_x','<u4'),('tile_y','<u4'),('verdict','|u1')]";
 
 template <class Record>
 void append(NpyWriter& file, const Record& record) {
@@ -60,7 +60,7 @@ void Recorder::quad(const QuadEvent& event) {
 }
 
 void Recorder::decision(const DecisionEvent& event) {
-  append(*tiles_, TileRecord{event.draw, event.triangle, event.x, event.y, event.size,
+  append(*tiles_, TileRecord{event.draw, event.triangle, event.tile_x, event.tile_y,
                              static_cast<std::uint8_t>(event.verdict)});
 }
 

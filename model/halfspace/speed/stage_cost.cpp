@@ -9,6 +9,7 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/machine/frame_source.hpp"
+#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -28,6 +29,7 @@ enum class Last : std::size_t {
   kSurfaces,
   kFrontEnd,
   kSetup,
+  kBlockWalker,
   kTileWalker,
   kEdgeEvaluator,
   kQuadGenerator,
@@ -48,7 +50,7 @@ template <int TileSize, Last kLast>
 class PrefixRun {
  public:
   PrefixRun(const Frame& frame, const Config& config)
-      : frame_(frame), config_(config), walker_(walker_config(config)) {
+      : frame_(frame), config_(config), walk_(walker_config(config)), walker_(walk_) {
     result_.surfaces = make_surfaces(frame, config, Watch{});
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
@@ -86,22 +88,31 @@ class PrefixRun {
         if (!passage::setup(triangle, *draw_, triangle_)) {
           continue;
         }
-        if constexpr (kLast < Last::kTileWalker) {
+        if constexpr (kLast < Last::kBlockWalker) {
           drop(triangle_);
         } else {
-          walker_.walk<TileSize>(
-              triangle_, *draw_,
-              [this](const TileJob& job, TileWork work, std::uint32_t /*steps*/) { this->job(job, work); });
+          walker_.walk<TileSize>(triangle_, *draw_, [this](const BlockJob& block, std::uint32_t /*empty*/) {
+            this->block(block);
+          });
         }
       }
     }
   }
 
-  void job(const TileJob& job, TileWork work) {
+  void block(const BlockJob& block) {
+    if constexpr (kLast < Last::kTileWalker) {
+      drop(block);
+    } else {
+      passage::tile_walker<TileSize>(block, walk_, *draw_,
+                                     [this](const TileJob& job, bool whole) { this->job(job, whole); });
+    }
+  }
+
+  void job(const TileJob& job, bool whole) {
     if constexpr (kLast < Last::kEdgeEvaluator) {
       return drop(job);
     } else {
-      const Coverage coverage = passage::edge_evaluator<TileSize>(job, work, *draw_);
+      const Coverage coverage = passage::edge_evaluator<TileSize>(job, whole, *draw_);
       if constexpr (kLast < Last::kQuadGenerator) {
         return drop(coverage);
       } else if (any(coverage.mask)) {
@@ -137,7 +148,8 @@ class PrefixRun {
   FrameResult result_;
   std::vector<ZSurface> places_;
   std::deque<DrawContext> draws_;
-  passage::TileWalker walker_;
+  WalkerConfig walk_;
+  passage::BlockWalker walker_;
   ZCache z_cache_;
 
   // Of the draw at work.
@@ -154,23 +166,25 @@ Counters run_prefix(const Frame& frame, const Config& config) {
 }
 
 constexpr std::array<Counters (*)(const Frame&, const Config&), kPrefixes> kRunPrefix{
-    run_prefix<Last::kSurfaces>,   run_prefix<Last::kFrontEnd>,      run_prefix<Last::kSetup>,
-    run_prefix<Last::kTileWalker>, run_prefix<Last::kEdgeEvaluator>, run_prefix<Last::kQuadGenerator>,
-    run_prefix<Last::kZTest>,      run_prefix<Last::kPixelCounts>,   run_prefix<Last::kZCache>};
+    run_prefix<Last::kSurfaces>,      run_prefix<Last::kFrontEnd>,   run_prefix<Last::kSetup>,
+    run_prefix<Last::kBlockWalker>,   run_prefix<Last::kTileWalker>, run_prefix<Last::kEdgeEvaluator>,
+    run_prefix<Last::kQuadGenerator>, run_prefix<Last::kZTest>,      run_prefix<Last::kPixelCounts>,
+    run_prefix<Last::kZCache>};
 
 std::vector<StageCost> stages_of(const Frame& frame, const Counters& c) {
   std::uint64_t pixels = 0;
   for (const Target& target : frame.targets) {
     pixels += target.depth_surface == kNoSurface ? 0 : std::uint64_t{target.width} * target.height;
   }
-  const TileWalkerCounters& walker = c.tile_walker;
-  const std::uint64_t decisions = walker.blocks_rejected + walker.blocks_accepted + walker.blocks_partial +
-                                  walker.tiles_rejected + walker.tiles_accepted + walker.tiles_partial;
   return {
       {.stage = "surfaces", .item = "pixel", .items = pixels, .milliseconds = {}},
       {.stage = "front_end", .item = "triangle", .items = c.front_end.triangles, .milliseconds = {}},
       {.stage = "setup", .item = "triangle", .items = c.setup.triangles, .milliseconds = {}},
-      {.stage = "tile_walker", .item = "decision", .items = decisions, .milliseconds = {}},
+      {.stage = "block_walker", .item = "block", .items = c.block_walker.blocks, .milliseconds = {}},
+      {.stage = "tile_walker",
+       .item = "job",
+       .items = c.tile_walker.tiles_accepted + c.tile_walker.tiles_partial,
+       .milliseconds = {}},
       {.stage = "edge_evaluator",
        .item = "job",
        .items = c.edge_evaluator.tiles + c.edge_evaluator.tiles_skipped,

@@ -14,7 +14,8 @@ namespace halfspace {
 
 // Latencies that no key changes; the table of links has them all.
 inline constexpr int kSetupCullLatency = latency(Link::kSetupQueue, {});
-inline constexpr int kWalkerLatency = latency(Link::kTileWalker, {});
+inline constexpr int kBlockLatency = latency(Link::kBlockWalker, {});
+inline constexpr int kTileLatency = latency(Link::kTileWalker, {});
 inline constexpr int kQuadLatency = latency(Link::kQuadGenerator, {});
 inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 

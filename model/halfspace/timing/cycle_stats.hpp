@@ -81,7 +81,8 @@ struct FrameCycles {
 /// T(name, what): the packets whose cycles are noted one by one, for comparison of engines.
 #define HALFSPACE_PACKET_TIMES(T)                            \
   T(decide, "setup: every triangle, dropped or drawn")       \
-  T(accept, "tile_walker: every triangle that is drawn")     \
+  T(accept, "block_walker: every triangle that is drawn")    \
+  T(block,  "block_walker: every block job")                 \
   T(emit,   "tile_walker: every tile job")                   \
   T(e,      "edge_evaluator: every tile job")                \
   T(g,      "quad_generator: every coverage")                \

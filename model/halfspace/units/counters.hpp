@@ -24,14 +24,14 @@ namespace halfspace {
   C(outside,           "dropped: the bounding box misses scissor, viewport or target") \
   C(drawn,             "given to the walker")
 
-#define HALFSPACE_TILE_WALKER_COUNTERS(C)                                             \
-  C(blocks_rejected,   "blocks outside one edge: none of their tiles is looked at")   \
-  C(blocks_accepted,   "blocks inside all edges: their tiles need no test")           \
-  C(blocks_partial,    "blocks whose tiles are decided one by one")                   \
-  C(tiles_rejected,    "tiles outside one edge")                                      \
-  C(tiles_accepted,    "tiles decided as covered whole")                              \
-  C(tiles_partial,     "tiles left to the edge evaluator")                            \
-  C(tiles_by_block,    "tiles covered whole because their block was")
+#define HALFSPACE_BLOCK_WALKER_COUNTERS(C)                                   \
+  C(blocks,            "of the bounds, looked at")                           \
+  C(blocks_empty,      "left without a tile: nothing leaves for them")       \
+  C(tiles_rejected,    "tiles of the bounds outside one edge")
+
+#define HALFSPACE_TILE_WALKER_COUNTERS(C)                                    \
+  C(tiles_accepted,    "tiles covered whole")                                \
+  C(tiles_partial,     "tiles left to the edge evaluator")
 
 #define HALFSPACE_EDGE_EVALUATOR_COUNTERS(C)                                \
   C(tiles_skipped,     "covered whole: nothing to evaluate")                \
@@ -83,6 +83,7 @@ namespace halfspace {
 
 HALFSPACE_COUNTER_STRUCT(FrontEndCounters, HALFSPACE_FRONT_END_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(SetupCounters, HALFSPACE_SETUP_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(BlockWalkerCounters, HALFSPACE_BLOCK_WALKER_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(TileWalkerCounters, HALFSPACE_TILE_WALKER_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EdgeEvaluatorCounters, HALFSPACE_EDGE_EVALUATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(QuadGeneratorCounters, HALFSPACE_QUAD_GENERATOR_COUNTERS)
@@ -96,6 +97,7 @@ HALFSPACE_COUNTER_STRUCT(EarlyZCounters, HALFSPACE_EARLY_Z_COUNTERS)
 struct Counters {
   FrontEndCounters front_end;
   SetupCounters setup;
+  BlockWalkerCounters block_walker;
   TileWalkerCounters tile_walker;
   EdgeEvaluatorCounters edge_evaluator;
   QuadGeneratorCounters quad_generator;
@@ -106,6 +108,7 @@ struct Counters {
   static void units(Visit&& visit) {
     visit("front_end", &Counters::front_end);
     visit("setup", &Counters::setup);
+    visit("block_walker", &Counters::block_walker);
     visit("tile_walker", &Counters::tile_walker);
     visit("edge_evaluator", &Counters::edge_evaluator);
     visit("quad_generator", &Counters::quad_generator);

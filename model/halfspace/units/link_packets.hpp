@@ -9,7 +9,7 @@
 #include "halfspace/units/depth_plane.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
-#include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/square_edges.hpp"
 #include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
@@ -115,10 +115,9 @@ inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits
           .sub_pixel_bits = sub_pixel_bits};
 }
 
-/// What the walk needs of a triangle. The walk starts at the first tile of the bounds, or, where the bounds
-/// do not fit one tile and blocks are walked, at the first block.
+/// What the walk needs of a triangle. It starts at the first block of the bounds.
 struct SetupTrianglePacket {
-  std::array<std::int64_t, 3> e{};  ///< at the centre of the first pixel of that tile or block
+  std::array<std::int64_t, 3> e{};  ///< at the centre of the first pixel of that block
   std::array<std::int32_t, 3> a{};
   std::array<std::int32_t, 3> b{};
   std::uint16_t x_first = 0;  ///< bounds, in pixels, inclusive
@@ -139,15 +138,10 @@ struct SetupTrianglePacket {
   }
 };
 
-/// `tile_size` in pixels.
-inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const WalkerConfig& walker,
-                                     int tile_size) {
+inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const WalkerConfig& walker) {
   const PixelRect& bounds = triangle.bounds;
-  const bool one_tile = bounds.x_first / tile_size == bounds.x_last / tile_size &&
-                        bounds.y_first / tile_size == bounds.y_last / tile_size;
-  const int square = walker.block_level && !one_tile ? walker.block_size : tile_size;
-  const std::int64_t x = bounds.x_first / square * square;
-  const std::int64_t y = bounds.y_first / square * square;
+  const std::int64_t x = bounds.x_first / walker.block_size * walker.block_size;
+  const std::int64_t y = bounds.y_first / walker.block_size * walker.block_size;
   SetupTrianglePacket packet{.x_first = static_cast<std::uint16_t>(bounds.x_first),
                              .x_last = static_cast<std::uint16_t>(bounds.x_last),
                              .y_first = static_cast<std::uint16_t>(bounds.y_first),

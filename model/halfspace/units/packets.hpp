@@ -84,7 +84,7 @@ struct DepthEquation {
   PlaneEquation plane;           ///< plane
 };
 
-/// setup -> tile_walker.
+/// setup -> block_walker.
 struct SetupTriangle {
   std::array<Edge, 3> edge;
   PixelRect bounds;  ///< pixels whose centres the bounding box, the scissor and the target all hold
@@ -92,10 +92,40 @@ struct SetupTriangle {
   std::uint32_t triangle = 0;
 };
 
+/// block_walker -> tile_walker: a block that a triangle may touch.
+struct BlockJob {
+  std::uint8_t slot = 0;  ///< where the triangle's depth equation and draw state are kept: one more, modulo
+                          ///< 256, for each triangle that has a block job
+  std::uint16_t block_x = 0;  ///< in blocks
+  std::uint16_t block_y = 0;
+  std::array<std::int64_t, 3> e{};  ///< E at the centre of the block's top left pixel, fill rule folded in
+  std::array<std::int32_t, 3> a{};
+  std::array<std::int32_t, 3> b{};
+  std::uint8_t x_first = 0;  ///< columns and rows inside the bounds, inclusive, counted in the block
+  std::uint8_t x_last = 0;
+  std::uint8_t y_first = 0;
+  std::uint8_t y_last = 0;
+  std::uint64_t tiles = 0;  ///< bit y * (tiles in a row of the block) + x: the triangle may touch it
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    visit("slot", &BlockJob::slot, &Widths::SlotBits, Sign::kUnsigned);
+    visit("block_x", &BlockJob::block_x, &Widths::BlockCoordBits, Sign::kUnsigned);
+    visit("block_y", &BlockJob::block_y, &Widths::BlockCoordBits, Sign::kUnsigned);
+    visit("e", &BlockJob::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("a", &BlockJob::a, &Widths::StepBits, Sign::kSigned);
+    visit("b", &BlockJob::b, &Widths::StepBits, Sign::kSigned);
+    visit("x_first", &BlockJob::x_first, &Widths::BlockLog2, Sign::kUnsigned);
+    visit("x_last", &BlockJob::x_last, &Widths::BlockLog2, Sign::kUnsigned);
+    visit("y_first", &BlockJob::y_first, &Widths::BlockLog2, Sign::kUnsigned);
+    visit("y_last", &BlockJob::y_last, &Widths::BlockLog2, Sign::kUnsigned);
+    visit("tiles", &BlockJob::tiles, &Widths::BlockTiles, Sign::kUnsigned);
+  }
+};
+
 /// tile_walker -> edge_evaluator: a tile that a triangle may touch.
 struct TileJob {
-  std::uint8_t slot = 0;  ///< where the triangle's depth equation and draw state are kept: one more, modulo
-                          ///< 256, for each triangle that has a tile job
+  std::uint8_t slot = 0;     ///< as in BlockJob
   std::uint16_t tile_x = 0;  ///< in tiles
   std::uint16_t tile_y = 0;
   std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in

@@ -6,15 +6,15 @@
 
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/units/edge_evaluator.hpp"
-#include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace::passage {
 
+/// `whole`: all samples of the tile are covered.
 template <int TileSize>
-Coverage edge_evaluator(const TileJob& job, TileWork work, DrawContext& draw) {
+Coverage edge_evaluator(const TileJob& job, bool whole, DrawContext& draw) {
   const Coverage coverage = halfspace::edge_evaluator<TileSize>(job, draw.setup.sub_pixel_bits);
   EdgeEvaluatorCounters& counters = draw.counters.edge_evaluator;
-  if (work != TileWork::kEvaluate) {
+  if (whole) {
     ++counters.tiles_skipped;  // every edge is accepted: there is none to look at
   } else {
     ++counters.tiles;

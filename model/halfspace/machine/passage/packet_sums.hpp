@@ -1,10 +1,11 @@
 /// What packets add to the sums of a surface.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 
+#include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/machine/packet_sums.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_walker.hpp"
@@ -17,16 +18,19 @@ inline void count(TileDecisions& tile, TileVerdict verdict) {
                                        : tile.partial);
 }
 
-/// About a block or a tile, `size` pixels on a side with the top left one at (x, y). A block that is partial
-/// says nothing of its tiles.
-template <int TileSize>
-void count_decision(PacketSums& sums, int x, int y, int size, TileVerdict verdict) {
-  if (size == TileSize) {
-    count(sums.decisions.at(x / TileSize, y / TileSize), verdict);
-  } else if (verdict != TileVerdict::kPartial) {
-    const int tiles = size / TileSize * (size / TileSize);
-    std::for_each_n(sums.decisions.tile(x / size, y / size), tiles,
-                    [verdict](TileDecisions& tile) { count(tile, verdict); });
+/// A decision about a tile, for who keeps sums or looks on; `triangle` is its number in the draw.
+inline void show_decision(int tile_x, int tile_y, TileVerdict verdict, std::uint32_t triangle,
+                          const DrawContext& draw) {
+  if (draw.sums != nullptr) {
+    count(draw.sums->decisions.at(tile_x, tile_y), verdict);
+  }
+  if (draw.record_decisions) {
+    draw.observer->decision({.draw = draw.draw,
+                             .triangle = triangle,
+                             .surface = draw.surface,
+                             .tile_x = static_cast<std::uint32_t>(tile_x),
+                             .tile_y = static_cast<std::uint32_t>(tile_y),
+                             .verdict = verdict});
   }
 }
 

@@ -24,8 +24,7 @@ struct FrameRecord {
 inline constexpr std::uint64_t kMostRecordedTiles = std::uint64_t{1} << 26;
 
 /// Records `frame` on the machine of `config`, both valid; `watch` says who looks on, and the core. Throws
-/// InputError where a triangle makes the walker take more than kMostSteps steps without a tile job, or where
-/// the core does not cover the run.
+/// InputError where the core does not cover the run.
 FrameRecord record_frame(const Frame& frame, const Config& config,
                          const Watch& watch = {.count_pixels = false});
 

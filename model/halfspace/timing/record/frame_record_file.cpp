@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <span>
@@ -14,7 +15,7 @@ namespace halfspace {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x43525348;  // "HSRC"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 // Members of a list in the file, one word each.
 constexpr auto kSurfaceWords =
@@ -22,7 +23,7 @@ constexpr auto kSurfaceWords =
 constexpr auto kSegmentWords = std::to_array({&StreamSegment::surface, &StreamSegment::touches_depth,
                                               &StreamSegment::triangles, &StreamSegment::dropped_after});
 constexpr auto kTriangleWords =
-    std::to_array({&StreamTriangle::dropped_before, &StreamTriangle::jobs, &StreamTriangle::steps_after});
+    std::to_array({&StreamTriangle::dropped_before, &StreamTriangle::blocks, &StreamTriangle::empty_after});
 
 class Writer {
  public:
@@ -137,40 +138,52 @@ void check_access(const Reader& reader, const FrameRecord& record, const StreamS
 /// Everything the replay relies on: that lists are as long as others say, and numbers in range.
 void check(const Reader& reader, const FrameRecord& record) {
   check_surfaces(reader, record);
-  const int most_quads = record.config.tile_walker.tile_size * record.config.tile_walker.tile_size / 4;
+  const PacketStream& packets = record.packets;
+  const int tile_size = record.config.tile_walker.tile_size;
+  const int most_quads = tile_size * tile_size / 4;
+  const int row_tiles = record.config.block_walker.block_size / tile_size;
   std::size_t triangle = 0;
+  std::size_t block = 0;
   std::size_t job = 0;
   std::size_t access = 0;
-  for (const StreamSegment& segment : record.packets.segments) {
+  for (const StreamSegment& segment : packets.segments) {
     const bool clear = segment.kind == StreamSegment::Kind::kFastClear;
     const bool has_surface = segment.surface < record.surfaces.size();
     if (segment.touches_depth > 1 || ((clear || segment.touches_depth == 1) &&
                                       (!has_surface || record.surfaces[segment.surface].tiles == 0))) {
       reader.fail(fmt::format("a draw or clear of depth surface {}, which is not there", segment.surface));
     }
-    if ((clear && segment.triangles != 0) || segment.triangles > record.packets.triangles.size() - triangle) {
+    if ((clear && segment.triangles != 0) || segment.triangles > packets.triangles.size() - triangle) {
       reader.fail("more triangles in draws than in the list");
     }
     for (std::uint32_t i = 0; i < segment.triangles; ++i, ++triangle) {
-      if (record.packets.triangles[triangle].jobs > record.packets.jobs.size() - job) {
-        reader.fail("more tile jobs in triangles than in the list");
+      if (packets.triangles[triangle].blocks > packets.blocks.size() - block) {
+        reader.fail("more block jobs in triangles than in the list");
       }
-      for (std::uint32_t k = 0; k < record.packets.triangles[triangle].jobs; ++k, ++job) {
-        if (record.packets.jobs[job].quads() > most_quads) {
-          reader.fail(fmt::format("{} quads in a tile; legal: at most {}", record.packets.jobs[job].quads(),
-                                  most_quads));
+      for (std::uint32_t b = 0; b < packets.triangles[triangle].blocks; ++b, ++block) {
+        const int jobs = packets.blocks[block].jobs();
+        if (jobs == 0 || jobs > row_tiles * row_tiles) {
+          reader.fail(fmt::format("{} tile jobs in a block; legal: 1 to {}", jobs, row_tiles * row_tiles));
         }
-        if (segment.touches_depth == 1 && record.packets.jobs[job].quads() != 0) {
-          if (access == record.packets.accesses.size()) {
-            reader.fail("more bursts with depth than in the list");
+        if (static_cast<std::size_t>(jobs) > packets.jobs.size() - job) {
+          reader.fail("more tile jobs in blocks than in the list");
+        }
+        for (const std::size_t end = job + static_cast<std::size_t>(jobs); job != end; ++job) {
+          if (packets.jobs[job] > most_quads) {
+            reader.fail(fmt::format("{} quads in a tile; legal: at most {}", packets.jobs[job], most_quads));
           }
-          check_access(reader, record, record.surfaces[segment.surface], record.packets.accesses[access++]);
+          if (segment.touches_depth == 1 && packets.jobs[job] != 0) {
+            if (access == packets.accesses.size()) {
+              reader.fail("more bursts with depth than in the list");
+            }
+            check_access(reader, record, record.surfaces[segment.surface], packets.accesses[access++]);
+          }
         }
       }
     }
   }
-  if (triangle != record.packets.triangles.size() || job != record.packets.jobs.size() ||
-      access != record.packets.accesses.size()) {
+  if (triangle != packets.triangles.size() || block != packets.blocks.size() || job != packets.jobs.size() ||
+      access != packets.accesses.size()) {
     reader.fail("lists are longer than draws and triangles say");
   }
 }
@@ -194,7 +207,8 @@ void write_record(const std::filesystem::path& path, const FrameRecord& record) 
     put_members(s, kSegmentWords);
   });
   writer.list(record.packets.triangles, [&](const StreamTriangle& t) { put_members(t, kTriangleWords); });
-  writer.list(record.packets.jobs, [&](const StreamJob& j) { writer.word(j.word()); });
+  writer.list(record.packets.blocks, [&](const StreamBlock& b) { writer.word(b.word()); });
+  writer.list(record.packets.jobs, [&](const StreamJob& j) { writer.word(j); });
   writer.list(record.packets.accesses, [&](const StreamAccess& a) { writer.word(a.word()); });
   write_bytes(path, compress_gzip(writer.bytes()));
 }
@@ -234,7 +248,9 @@ FrameRecord parse_record(std::span<const std::byte> bytes, const std::string& na
   });
   record.packets.triangles = reader.list<StreamTriangle>(
       kTriangleWords.size(), [&] { return get_members(StreamTriangle{}, kTriangleWords); });
-  record.packets.jobs = reader.list<StreamJob>(1, [&] { return StreamJob(reader.word()); });
+  record.packets.blocks = reader.list<StreamBlock>(1, [&] { return StreamBlock(reader.word()); });
+  record.packets.jobs =
+      reader.list<StreamJob>(1, [&] { return static_cast<StreamJob>(std::min(reader.word(), 0xFFu)); });
   record.packets.accesses = reader.list<StreamAccess>(1, [&] { return StreamAccess(reader.word()); });
   reader.end();
   check(reader, record);

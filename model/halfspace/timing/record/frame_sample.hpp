@@ -4,7 +4,7 @@
 /// The record is cut into stretches of like work. Some of them, spread over the frame, are copied, each
 /// behind the one before it, which brings the machine into the state that it has in mid-frame. A stretch
 /// counts with a weight: its share of the frame, calibrated so that the weighted counts of the sample (jobs,
-/// steps, quads, fetches, ...) are those of the frame.
+/// blocks, quads, fetches, ...) are those of the frame.
 #pragma once
 
 #include <cstddef>

@@ -19,13 +19,15 @@ FrameWork frame_work(const StreamView& stream, std::span<const StreamSurface> su
   }
   for (const StreamTriangle& triangle : stream.triangles) {
     work.triangles += triangle.dropped_before + 1;
-    work.steps += triangle.steps_after;
-    work.most_steps = std::max(work.most_steps, triangle.steps_after);
+    work.blocks += triangle.empty_after;
+    work.most_empty = std::max(work.most_empty, triangle.empty_after);
+  }
+  for (const StreamBlock& block : stream.blocks) {
+    work.blocks += block.empty_before() + 1;
+    work.most_empty = std::max(work.most_empty, block.empty_before());
   }
   for (const StreamJob& job : stream.jobs) {
-    work.steps += job.steps();
-    work.most_steps = std::max(work.most_steps, job.steps());
-    ++work.jobs[static_cast<std::size_t>(job.quads())];
+    ++work.jobs[job];
   }
   for (const ZMiss& miss : stream.misses) {
     if (miss.fetch) {
@@ -52,7 +54,7 @@ std::uint64_t longest_time(const FrameWork& work, const Config& config) {
     time += work.jobs[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);
   }
   const std::uint64_t each_triangle = through + m.setup_interval + 4;
-  time += work.triangles * each_triangle + work.steps * m.step_interval;
+  time += work.triangles * each_triangle + work.blocks;
   for (std::size_t i = 0; i < work.fetched.size(); ++i) {
     time += work.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +
             work.written_back[i] * (m.write_cycles[i] + 4);

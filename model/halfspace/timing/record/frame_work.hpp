@@ -13,8 +13,8 @@ namespace halfspace {
 
 struct FrameWork {
   std::uint64_t triangles = 0;                   ///< into setup
-  std::uint64_t steps = 0;                       ///< of the walker
-  std::uint32_t most_steps = 0;                  ///< to a job, or after a triangle's last
+  std::uint64_t blocks = 0;                      ///< that the walker visits
+  std::uint32_t most_empty = 0;                  ///< of them one after the other without a tile
   std::array<std::uint64_t, 65> jobs{};          ///< tile jobs by their quads
   std::array<std::uint64_t, 11> fetched{};       ///< lines read, by the logarithm of their bytes
   std::array<std::uint64_t, 11> written_back{};  ///< lines written, the same way

@@ -26,12 +26,13 @@ class RecordReader final : public StreamReader {
     std::span<const StreamTriangle> triangles = part.triangles;
     if (part.continues_triangle) {
       StreamTriangle& open = packets_.triangles.back();
-      open.jobs += triangles[0].jobs;
-      open.steps_after = triangles[0].steps_after;
+      open.blocks += triangles[0].blocks;
+      open.empty_after = triangles[0].empty_after;
       triangles = triangles.subspan(1);
     }
     append(packets_.segments, segments);
     append(packets_.triangles, triangles);
+    append(packets_.blocks, part.blocks);
     append(packets_.jobs, part.jobs);
     append(packets_.accesses, part.accesses);
   }

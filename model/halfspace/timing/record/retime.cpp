@@ -127,7 +127,7 @@ std::vector<std::uint64_t> Retimer::estimate(std::span<const Config> configs) {
 
 namespace detail {
 
-std::uint64_t longest_job(const Config& config, std::uint32_t most_steps) {
+std::uint64_t longest_job(const Config& config, std::uint32_t most_empty) {
   const Machine<std::uint64_t> m = machine(config);
   const int tile = config.tile_walker.tile_size;
   const auto line = static_cast<std::size_t>(
@@ -135,9 +135,9 @@ std::uint64_t longest_job(const Config& config, std::uint32_t most_steps) {
   const auto quads = static_cast<std::size_t>(tile * tile / 4);
   const auto parts = static_cast<std::uint64_t>(config.z_cache.parts);
   // up to two walks, the job's own and that after the last job before
-  return 2 * std::uint64_t{most_steps} * m.step_interval +
-         static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 + m.quad_beats[quads] +
-         m.test_beats[quads] + parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + 8);
+  return 2 * (std::uint64_t{most_empty} + 1) + static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 +
+         m.quad_beats[quads] + m.test_beats[quads] +
+         parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + 8);
 }
 
 }  // namespace detail

@@ -69,10 +69,10 @@ class Retimer {
 namespace detail {
 
 /// Machines whose z cache is that of `trace`, in lanes of 16 bits where they have room, else of 32. No time
-/// may reach 2^32 (see longest_time). `most_steps`: of the walker from one job to the next, or after the last
-/// of a triangle.
+/// may reach 2^32 (see longest_time). `most_empty`: blocks without a tile, from one block job to the next or
+/// after the last of a triangle.
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  std::uint32_t most_steps, RetimedFrame* results);
+                  std::uint32_t most_empty, RetimedFrame* results);
 
 /// Machines that fill the lanes of a pass of 16 bits on this processor: of two vectors, so even.
 std::size_t pass_machines();
@@ -81,7 +81,7 @@ std::size_t pass_machines();
 inline constexpr std::uint64_t kNarrowRoom = 0x7FFF;
 
 /// A bound on the cycles by which the latest time behind setup grows from one job to the next.
-std::uint64_t longest_job(const Config& config, std::uint32_t most_steps);
+std::uint64_t longest_job(const Config& config, std::uint32_t most_empty);
 
 }  // namespace detail
 }  // namespace halfspace

@@ -71,7 +71,6 @@ class LaneMachines {
     }
     fill(all.setup_interval, [](const auto& m) { return m.setup_interval; });
     fill(all.setup_latency, [](const auto& m) { return m.setup_latency; });
-    fill(all.step_interval, [](const auto& m) { return m.step_interval; });
     fill(all.edge_latency, [](const auto& m) { return m.edge_latency; });
     fill(all.lookup_latency, [](const auto& m) { return m.lookup_latency; });
     fill(all.memory_latency, [](const auto& m) { return m.memory_latency; });
@@ -101,9 +100,17 @@ class Cores {
     first_.job(work);
     rest_.job(work);
   }
-  HWY_INLINE void walked(std::uint32_t steps) {
-    first_.walked(steps);
-    rest_.walked(steps);
+  HWY_INLINE void block(std::uint32_t empty_before) {
+    first_.block(empty_before);
+    rest_.block(empty_before);
+  }
+  HWY_INLINE void block_done() {
+    first_.block_done();
+    rest_.block_done();
+  }
+  HWY_INLINE void walked(std::uint32_t empty_after) {
+    first_.walked(empty_after);
+    rest_.walked(empty_after);
   }
   HWY_INLINE void keep_near() {
     first_.keep_near();
@@ -128,7 +135,9 @@ class Cores<Policy, 0> {
   HWY_INLINE void dropped() {}
   HWY_INLINE void drawn() {}
   HWY_INLINE void job(const JobWork& /*work*/) {}
-  HWY_INLINE void walked(std::uint32_t /*steps*/) {}
+  HWY_INLINE void block(std::uint32_t /*empty_before*/) {}
+  HWY_INLINE void block_done() {}
+  HWY_INLINE void walked(std::uint32_t /*empty_after*/) {}
   HWY_INLINE void keep_near() {}
   template <class Act>
   void each(const Act& /*act*/, std::size_t /*number*/) {}
@@ -158,7 +167,9 @@ class Pass {
       }
     }
   }
-  HWY_INLINE void walked(std::uint32_t steps) { cores_.walked(steps); }
+  HWY_INLINE void block(std::uint32_t empty_before) { cores_.block(empty_before); }
+  HWY_INLINE void block_done() { cores_.block_done(); }
+  HWY_INLINE void walked(std::uint32_t empty_after) { cores_.walked(empty_after); }
   void fast_clear(std::uint32_t tiles) {
     cores_.each([this, tiles](Core& core, std::size_t number) HWY_ATTR {
       core.fast_clear(Policy::SetupTime::of(machines_[number].of_each(
@@ -254,10 +265,10 @@ std::size_t retime_some(const FrameRecord& record, const ZTrace& trace, std::spa
 #if HWY_TARGET != HWY_SCALAR
 /// In lanes of 16 bits as retime_some. 0 too where the machines are so slow that a job may not fit.
 std::size_t retime_narrow(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                          std::uint32_t most_steps, RetimedFrame* results) {
+                          std::uint32_t most_empty, RetimedFrame* results) {
   std::uint64_t growth = 1;
   for (const Config& config : configs.first(std::min(configs.size(), 2 * NarrowLanes::Time::kMachines))) {
-    growth = std::max(growth, detail::longest_job(config, most_steps));
+    growth = std::max(growth, detail::longest_job(config, most_empty));
   }
   // times are near at first and may grow as far again until they are looked after
   const auto jobs = static_cast<std::uint32_t>(detail::kNarrowRoom / growth);
@@ -276,11 +287,11 @@ std::size_t pass_machines() {
 }
 
 void retime_group(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  [[maybe_unused]] std::uint32_t most_steps, RetimedFrame* results) {
+                  [[maybe_unused]] std::uint32_t most_empty, RetimedFrame* results) {
   while (!configs.empty()) {
     std::size_t done = 0;
 #if HWY_TARGET != HWY_SCALAR
-    done = retime_narrow(record, trace, configs, most_steps, results);
+    done = retime_narrow(record, trace, configs, most_empty, results);
 #endif
     if (done == 0) {
       done = retime_some<WideLanes>(record, trace, configs, 0, results);
@@ -302,8 +313,8 @@ HWY_EXPORT(retime_group);
 std::size_t pass_machines() { return HWY_DYNAMIC_DISPATCH(pass_machines)(); }
 
 void retime_lanes(const FrameRecord& record, const ZTrace& trace, std::span<const Config> configs,
-                  std::uint32_t most_steps, RetimedFrame* results) {
-  HWY_DYNAMIC_DISPATCH(retime_group)(record, trace, configs, most_steps, results);
+                  std::uint32_t most_empty, RetimedFrame* results) {
+  HWY_DYNAMIC_DISPATCH(retime_group)(record, trace, configs, most_empty, results);
 }
 
 }  // namespace halfspace::detail

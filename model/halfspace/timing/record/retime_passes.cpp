@@ -48,7 +48,7 @@ void cut(const RetimeGroup& group, std::span<const Config> configs, std::size_t 
       passes.push_back({.group = &group, .machines = {i}});
       continue;
     }
-    const bool slow = detail::longest_job(configs[i], group.work->most_steps) > detail::kNarrowRoom;
+    const bool slow = detail::longest_job(configs[i], group.work->most_empty) > detail::kNarrowRoom;
     places.push_back({.slow = slow, .capacity = capacities(configs[i]), .i = i});
   }
   // a pass is as wide as its slowest machine needs, and costs less where capacities are the same
@@ -92,7 +92,7 @@ void run(const Pass& pass, std::span<const Config> configs, std::span<RetimedFra
     machines.push_back(configs[i]);
   }
   std::vector<RetimedFrame> retimed(machines.size());
-  detail::retime_lanes(*group.record, *group.trace, machines, group.work->most_steps, retimed.data());
+  detail::retime_lanes(*group.record, *group.trace, machines, group.work->most_empty, retimed.data());
   for (std::size_t k = 0; k < retimed.size(); ++k) {
     results[pass.machines[k]] = std::move(retimed[k]);
   }

@@ -11,6 +11,7 @@ namespace {
 template <class Visitor>
 void walk(const PacketStream& packets, Visitor& visitor) {
   const StreamTriangle* triangle = packets.triangles.data();
+  const StreamBlock* block = packets.blocks.data();
   std::uint32_t job = 0;
   std::uint32_t access = 0;
   for (const StreamSegment& segment : packets.segments) {
@@ -20,10 +21,14 @@ void walk(const PacketStream& packets, Visitor& visitor) {
     visitor.segment(segment);
     for (const StreamTriangle* const last = triangle + segment.triangles; triangle != last; ++triangle) {
       visitor.triangle(*triangle, job, access);
-      for (const std::uint32_t end = job + triangle->jobs; job != end; ++job) {
-        const bool touches = segment.touches_depth != 0 && packets.jobs[job].quads() != 0;
-        visitor.job(packets.jobs[job], touches ? &packets.accesses[access] : nullptr, job, access);
-        access += touches ? 1 : 0;
+      for (const StreamBlock* const end = block + triangle->blocks; block != end; ++block) {
+        visitor.block(*block, job, access);
+        for (const std::uint32_t jobs_end = job + static_cast<std::uint32_t>(block->jobs()); job != jobs_end;
+             ++job) {
+          const bool touches = segment.touches_depth != 0 && packets.jobs[job] != 0;
+          visitor.job(packets.jobs[job], touches ? &packets.accesses[access] : nullptr);
+          access += touches ? 1 : 0;
+        }
       }
       visitor.walked(*triangle, job, access);
     }
@@ -44,23 +49,23 @@ class Cutter {
     stretches.back().work += 1;
     burst_ = false;
   }
-  void job(const StreamJob& packet, const StreamAccess* /*access*/, std::uint32_t job, std::uint32_t access) {
+  void block(const StreamBlock& packet, std::uint32_t job, std::uint32_t access) {
     if (burst_ && stretches.back().work >= 2 * work_) {
       begin(job, access);
     }
-    const int quads = packet.quads();
+    visited(packet.empty_before() + 1);
+  }
+  void job(const StreamJob& quads, const StreamAccess* /*access*/) {
     add(StretchCount::kJobs, 1);
-    add(StretchCount::kSteps, packet.steps());
     add(StretchCount::kQuads, quads);
     add(StretchCount::kBeatsOf4, std::max(1, beats(quads, 4)));
     add(StretchCount::kBeatsOf16, std::max(1, beats(quads, 16)));
     add(StretchCount::kBursts, quads == 0 ? 0 : 1);
-    stretches.back().work += std::max(packet.steps(), static_cast<std::uint32_t>(beats(quads, 4)));
+    stretches.back().work += static_cast<std::uint64_t>(std::max(1, beats(quads, 4)));
     burst_ = quads != 0;
   }
   void walked(const StreamTriangle& triangle, std::uint32_t job, std::uint32_t access) {
-    add(StretchCount::kSteps, triangle.steps_after);
-    stretches.back().work += triangle.steps_after;
+    visited(triangle.empty_after);
     if (burst_ && stretches.back().work >= work_) {
       begin(job, access);
     }
@@ -78,6 +83,11 @@ class Cutter {
   std::vector<Stretch> stretches;
 
  private:
+  /// Blocks; those with jobs go on beside them.
+  void visited(std::uint32_t blocks) {
+    add(StretchCount::kBlocks, blocks);
+    stretches.back().work += blocks;
+  }
   void add(StretchCount which, double number) { count(stretches.back().counts, which) += number; }
 
   std::uint64_t work_;
@@ -100,22 +110,29 @@ class Copier {
       open(triangle.dropped_before);
     }
   }
-  void job(const StreamJob& packet, const StreamAccess* access, std::uint32_t job, std::uint32_t /*access*/) {
-    if (!wants(job)) {
+  void block(const StreamBlock& packet, std::uint32_t job, std::uint32_t /*access*/) {
+    copies_ = wants(job);
+    if (!copies_) {
       return;
     }
     if (!in_triangle_) {
       open(0);
     }
+    result.packets.blocks.push_back(packet);
+    ++result.packets.triangles.back().blocks;
+  }
+  void job(const StreamJob& packet, const StreamAccess* access) {
+    if (!copies_) {
+      return;
+    }
     result.packets.jobs.push_back(packet);
-    ++result.packets.triangles.back().jobs;
     if (access != nullptr) {
       result.packets.accesses.push_back(*access);
     }
   }
   void walked(const StreamTriangle& triangle, std::uint32_t /*job*/, std::uint32_t /*access*/) {
     if (in_triangle_) {
-      result.packets.triangles.back().steps_after = triangle.steps_after;
+      result.packets.triangles.back().empty_after = triangle.empty_after;
     }
     in_triangle_ = false;
   }
@@ -162,6 +179,7 @@ class Copier {
   const StreamSegment* segment_ = nullptr;
   bool in_segment_ = false;
   bool in_triangle_ = false;
+  bool copies_ = false;  ///< the block at work
 };
 
 }  // namespace

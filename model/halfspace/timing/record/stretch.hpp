@@ -14,7 +14,7 @@ namespace halfspace {
 enum class StretchCount : std::uint8_t {
   kStretches,
   kJobs,
-  kSteps,
+  kBlocks,
   kDrawn,
   kDropped,
   kQuads,

@@ -103,6 +103,7 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
   }
   const PacketStream& packets = record.packets;
   const StreamTriangle* triangle = packets.triangles.data();
+  const StreamBlock* block = packets.blocks.data();
   const StreamJob* job = packets.jobs.data();
   std::uint32_t access = 0;
   for (const StreamSegment& segment : packets.segments) {
@@ -111,13 +112,16 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
       continue;
     }
     for (std::uint32_t i = 0; i < segment.triangles; ++i, ++triangle) {
-      const StreamJob* const end = job + triangle->jobs;
+      const StreamJob* end = job;
+      for (const StreamBlock* const last = block + triangle->blocks; block != last; ++block) {
+        end += block->jobs();
+      }
       if (segment.touches_depth == 0) {
         job = end;
         continue;
       }
       for (; job != end; ++job) {
-        if (job->quads() == 0) {
+        if (*job == 0) {
           continue;
         }
         const StreamAccess& a = packets.accesses[access];
@@ -147,6 +151,7 @@ ZTrace trace_z_cache(const FrameRecord& record, const ZCacheShape& shape) {
 StreamView whole_stream(const FrameRecord& record, const ZTrace& trace) {
   return {.segments = record.packets.segments,
           .triangles = record.packets.triangles,
+          .blocks = record.packets.blocks,
           .jobs = record.packets.jobs,
           .accesses = record.packets.accesses,
           .misses = trace.z.misses,

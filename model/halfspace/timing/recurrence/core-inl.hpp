@@ -81,32 +81,46 @@ class RecurrenceCore {
     divider_next_ = decide + machine().setup_interval;
     fifo<Fifo::kSetupQueue>().give(culled_++, decide_next_);
     const S visible = decide + (machine().setup_latency + stall(StallPoint::kSetup, triangles_));
-    const S taken = later(visible + 1, clock_.setup(walk_next_));  // the cycle after accept
+    const S taken = later(visible + 1, clock_.setup(block_next_));  // the cycle after accept
     if constexpr (Probe::kLooks) {
       probe_->link(Link::kSetup, triangles_, decide, taken);
-      if (taken > walk_next_) {
-        probe_->template split<2>(Stage::kTileWalker, walk_next_, {taken - 1, taken}, 0);
+      if (taken > block_next_) {
+        probe_->template split<2>(Stage::kBlockWalker, block_next_, {taken - 1, taken}, 0);
       }
       probe_->note(&PacketTimes::accept, taken - 1);
     }
     fifo<Fifo::kSetup>().give(triangles_++, taken);
-    walk_next_ = near(taken);
+    block_next_ = near(taken);
+  }
+
+  /// A block job, after `empty_before` blocks without a tile; its tile jobs follow, then block_done().
+  HWY_INLINE void block(std::uint32_t empty_before) {
+    block_begun_ = steps(empty_before);
+    block_next_ = block_begun_ + 1;
+    block_visible_ = block_begun_ + (kBlockLatency + stall(StallPoint::kBlockWalker, blocks_));
+    if constexpr (Probe::kLooks) {
+      probe_->busy(Stage::kBlockWalker, block_begun_, block_next_);
+      probe_->note(&PacketTimes::block, block_begun_);
+    }
+  }
+
+  HWY_INLINE void block_done() {
+    if constexpr (Probe::kLooks) {
+      probe_->link(Link::kBlockWalker, blocks_, block_begun_, tile_next_);
+    }
+    fifo<Fifo::kBlockWalker>().give(blocks_++, tile_next_);
   }
 
   HWY_INLINE void job(const JobWork& work) {
-    const T stepped = walk_next_ + machine().step_interval * work.steps;
-    const T emit_next = later(stepped, fifo<Fifo::kTileWalker>().usable(jobs_) + 1);
-    const T e =
-        later(later(emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_)), e_next_),
-              fifo<Fifo::kEdgeEvaluator>().usable(jobs_));
+    const T x = later(later(block_visible_, tile_next_), fifo<Fifo::kTileWalker>().usable(jobs_));
+    const T visible = x + (kTileLatency + stall(StallPoint::kTileWalker, jobs_));
+    const T e = later(later(visible, e_next_), fifo<Fifo::kEdgeEvaluator>().usable(jobs_));
     const T coverage = e + machine().edge_latency + stall(StallPoint::kEdgeEvaluator, jobs_);
     const T g = later(later(coverage, g_next_), fifo<Fifo::kQuadGenerator>().usable(bursts_));
     if constexpr (Probe::kLooks) {
-      const T visible = emit_next + (kWalkerLatency - 1 + stall(StallPoint::kTileWalker, jobs_));
-      probe_->link(Link::kTileWalker, jobs_, emit_next - 1, e + 1);
-      probe_->busy(Stage::kTileWalker, walk_next_, stepped);
-      probe_->wait(Stage::kTileWalker, stall::kWalkerNoCredit, stepped, emit_next);
-      probe_->note(&PacketTimes::emit, emit_next - 1);
+      probe_->link(Link::kTileWalker, jobs_, x, e + 1);
+      probe_->template split<2>(Stage::kTileWalker, tile_next_, {block_visible_, x}, 1);
+      probe_->note(&PacketTimes::emit, x);
       probe_->link(Link::kEdgeEvaluator, jobs_, e, g + 1);
       probe_->template split<2>(Stage::kEdgeEvaluator, e_next_, {visible, e}, 1);
       probe_->note(&PacketTimes::e, e);
@@ -114,7 +128,7 @@ class RecurrenceCore {
                                 work.quads == 0 ? T(1) : beats_of(work));
       probe_->note(&PacketTimes::g, g);
     }
-    walk_next_ = emit_next;
+    tile_next_ = x + 1;
     e_next_ = e + 1;
     fifo<Fifo::kTileWalker>().give(jobs_, e_next_);
     fifo<Fifo::kEdgeEvaluator>().give(jobs_++, g + 1);
@@ -126,13 +140,11 @@ class RecurrenceCore {
     burst(work, g);
   }
 
-  /// The triangle is done after so many more steps.
-  HWY_INLINE void walked(std::uint32_t steps) {
-    const T done = walk_next_ + machine().step_interval * steps;
-    if constexpr (Probe::kLooks) {
-      probe_->busy(Stage::kTileWalker, walk_next_, done);
+  /// The triangle is done after so many more blocks without a tile.
+  HWY_INLINE void walked(std::uint32_t empty_after) {
+    if (empty_after != 0) {
+      block_next_ = steps(empty_after);
     }
-    walk_next_ = done;
   }
 
   /// `cycles`: of the clear itself.
@@ -157,9 +169,9 @@ class RecurrenceCore {
 
   /// What the probe wants to know where a draw ends.
   [[nodiscard]] Progress<T> progress() const {
-    return {.free = {decide_next_, walk_next_, e_next_, g_next_, f_next_, b_next_},
+    return {.free = {decide_next_, block_next_, tile_next_, e_next_, g_next_, f_next_, b_next_},
             .sink_next = y_next_,
-            .packets = {culled_, triangles_, jobs_, jobs_, bursts_, bursts_, bursts_}};
+            .packets = {culled_, triangles_, blocks_, jobs_, jobs_, bursts_, bursts_, bursts_}};
   }
 
   /// First cycle of beat 0 of the last burst at the sink.
@@ -170,7 +182,7 @@ class RecurrenceCore {
   // Where times are narrow, they count from a cycle that moves on: see TimePolicy::Clock.
 
   /// To be called so often that no time grows beyond the width from one call to the next.
-  HWY_INLINE void keep_near() { walk_next_ = keep_near(walk_next_); }
+  HWY_INLINE void keep_near() { block_next_ = keep_near(block_next_); }
   /// A time was beyond the width: nothing that the core says is true.
   [[nodiscard]] bool lost() const { return lost_; }
 
@@ -203,6 +215,18 @@ class RecurrenceCore {
     return c + kSetupCullLatency;
   }
 
+  /// So many blocks without a tile; gives the cycle after them. Each step waits for the credit of the next
+  /// job.
+  HWY_INLINE T steps(std::uint32_t empty) {
+    const T begun = later(block_next_, fifo<Fifo::kBlockWalker>().usable(blocks_));
+    const T next = begun + empty;
+    if constexpr (Probe::kLooks) {
+      probe_->wait(Stage::kBlockWalker, stall::kBlockNoCredit, block_next_, begun);
+      probe_->busy(Stage::kBlockWalker, begun, next);
+    }
+    return next;
+  }
+
   /// Tells of a decision: the verdict was at the queue's head in `head`, and the divider free in `divider`.
   void decided(const S& head, const S& divider, const S& decide) {
     probe_->link(Link::kSetupQueue, culled_, cull_next_ - 1, decide + 1);
@@ -228,8 +252,8 @@ class RecurrenceCore {
 
   /// Of all times behind setup.
   [[nodiscard]] HWY_INLINE T latest() const {
-    return later(later(later(walk_next_, e_next_), later(g_next_, f_next_)),
-                 later(later(b_next_, y_next_), later(filled_next_, written_next_)));
+    return later(later(later(block_next_, tile_next_), later(e_next_, g_next_)),
+                 later(later(later(f_next_, b_next_), y_next_), later(filled_next_, written_next_)));
   }
 
   /// Where times are far from the clock, moves it to `at`, which no packet to come is before; gives `at` on
@@ -258,7 +282,10 @@ class RecurrenceCore {
   /// Times count from cycle `by` on. Those before are told from it no more: nothing waits for them.
   HWY_INLINE void move_clock(T by) {
     y_last_ = clock_.last(y_next_, y_last_);
-    walk_next_ = Clock::since(walk_next_, by);
+    block_next_ = Clock::since(block_next_, by);
+    block_begun_ = Clock::since(block_begun_, by);
+    block_visible_ = Clock::since(block_visible_, by);
+    tile_next_ = Clock::since(tile_next_, by);
     e_next_ = Clock::since(e_next_, by);
     g_next_ = Clock::since(g_next_, by);
     f_next_ = Clock::since(f_next_, by);
@@ -393,7 +420,10 @@ class RecurrenceCore {
   S divider_next_{};
   S clear_next_{};
   S y_last_{};
-  T walk_next_{};
+  T block_next_{};
+  T block_begun_{};    ///< the step of the block at work
+  T block_visible_{};  ///< to the tile walker
+  T tile_next_{};
   T e_next_{};
   T g_next_{};
   T f_next_{};
@@ -408,6 +438,7 @@ class RecurrenceCore {
   // packets so far
   std::uint64_t culled_ = 0;
   std::uint64_t triangles_ = 0;
+  std::uint64_t blocks_ = 0;
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;
   std::uint64_t fills_ = 0;

@@ -21,7 +21,6 @@ constexpr std::uint64_t later(std::uint64_t a, std::uint64_t b) { return std::ma
 
 /// What a tile job costs.
 struct JobWork {
-  std::uint32_t steps = 0;          ///< of the walker, since the job before, its own included
   int quads = 0;                    ///< 0: no sample is covered, and nothing leaves the quad generator
   std::span<const ZMiss> misses{};  ///< the parts of its tile that the z cache did not have
 };
@@ -44,7 +43,6 @@ struct Machine {
   std::array<T, kMostLineBytesLog2 + 1> write_cycles;
   S setup_interval;
   S setup_latency;  ///< from the decision to the walker
-  T step_interval;
   T edge_latency;
   T lookup_latency;  ///< from the lookup to the test
   T memory_latency;
@@ -64,7 +62,6 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   }
   m.setup_interval = static_cast<std::uint64_t>(config.setup.interval);
   m.setup_latency = static_cast<std::uint64_t>(latency(Link::kSetup, config));
-  m.step_interval = static_cast<std::uint64_t>(config.tile_walker.step_interval);
   m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
   m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);

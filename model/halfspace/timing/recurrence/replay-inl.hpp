@@ -35,6 +35,7 @@ struct ReplayHooks {
 /// How far a part of a stream has been read.
 struct StreamCursor {
   const StreamTriangle* triangle;
+  const StreamBlock* block;
   const StreamJob* job;
   const ZMiss* miss;
   const std::uint32_t* miss_burst;
@@ -69,20 +70,24 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
       core.drawn();
     }
     at.continues_triangle = false;
-    for (const StreamJob* const end = at.job + at.triangle->jobs; at.job != end; ++at.job) {
-      JobWork work{.steps = at.job->steps(), .quads = at.job->quads(), .misses = {}};
-      if (segment.touches_depth != 0 && work.quads != 0) {
-        work.misses = next_misses(at);
+    for (const StreamBlock* const end = at.block + at.triangle->blocks; at.block != end; ++at.block) {
+      core.block(at.block->empty_before());
+      for (const StreamJob* const jobs_end = at.job + at.block->jobs(); at.job != jobs_end; ++at.job) {
+        JobWork work{.quads = *at.job, .misses = {}};
+        if (segment.touches_depth != 0 && work.quads != 0) {
+          work.misses = next_misses(at);
+        }
+        hooks.job(static_cast<std::size_t>(at.job - part.jobs.data()));
+        core.job(work);
+        if (work.quads != 0) {
+          any = true;
+          hooks.burst(core);
+        }
       }
-      hooks.job(static_cast<std::size_t>(at.job - part.jobs.data()));
-      core.job(work);
-      if (work.quads != 0) {
-        any = true;
-        hooks.burst(core);
-      }
+      core.block_done();
     }
     if (!open || !part.open_triangle || at.triangle + 1 != last) {
-      core.walked(at.triangle->steps_after);
+      core.walked(at.triangle->empty_after);
     }
   }
   if (!open) {
@@ -100,6 +105,7 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
 template <class Core, class Hooks, class ClearCycles>
 void replay(const StreamView& part, Core& core, Hooks& hooks, bool& bursts, const ClearCycles& clear_cycles) {
   StreamCursor at{.triangle = part.triangles.data(),
+                  .block = part.blocks.data(),
                   .job = part.jobs.data(),
                   .miss = part.misses.data(),
                   .miss_burst = part.miss_burst.data(),

@@ -9,8 +9,8 @@ namespace {
 bool of_current(Stage stage, std::size_t activity) {
   const std::size_t reason = activity - 1;
   switch (stage) {
-    case Stage::kTileWalker:
-      return activity == 0 || reason == stall::kWalkerNoCredit;
+    case Stage::kBlockWalker:
+      return activity == 0 || reason == stall::kBlockNoCredit;
     case Stage::kZLookup:
       return activity == 0 || reason >= stall::kLookupWriteBack;
     default:

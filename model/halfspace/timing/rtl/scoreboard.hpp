@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "halfspace/machine/draw_state.hpp"
+#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
@@ -35,6 +36,7 @@ class Scoreboard {
         triangle_check_("setup", run.widths, run.report),
         equation_check_("setup (depth equation)", run.widths, run.report),
         state_check_("setup (draw state)", run.widths, run.report),
+        block_check_("block_walker", run.widths, run.report),
         job_check_("tile_walker", run.widths, run.report),
         coverage_check_("edge_evaluator", run.widths, run.report),
         beat_check_("quad_generator", run.widths, run.report) {}
@@ -79,6 +81,9 @@ class Scoreboard {
     begins(Event::kJob, Stage::kEdgeEvaluator, jobs_);
     begins(Event::kCoverage, Stage::kQuadGenerator, coverages_);
     begins(Event::kFirstBeat, Stage::kZLookup, bursts_);
+    if (run_.happens(Event::kEmit) && !to_emit_.empty()) {
+      run_.meter.begins(Stage::kTileWalker, to_emit_.front());
+    }
     if (run_.happens(Event::kTestFirst) && !to_test_.empty()) {
       run_.meter.begins(Stage::kZTest, to_test_.front());
     }
@@ -92,10 +97,18 @@ class Scoreboard {
     if (run_.happens(Event::kAccept) && run_.expected(triangles_, "setup")) {
       accept();
     }
+    if (run_.happens(Event::kBlock) && run_.expected(to_visit_, "block_walker (emission)")) {
+      run_.meter.take(Link::kBlockWalker, to_visit_.front(), run_.cycle);
+      to_visit_.pop_front();
+      run_.note(&PacketTimes::block);
+    }
     if (run_.happens(Event::kEmit) && run_.expected(to_emit_, "tile_walker (emission)")) {
       run_.meter.take(Link::kTileWalker, to_emit_.front(), run_.cycle);
       to_emit_.pop_front();
       run_.note(&PacketTimes::emit);
+    }
+    if (run_.happens(Event::kBlockDone) && run_.expected(blocks_, "block_walker")) {
+      block_done();
     }
     if (run_.happens(Event::kJob) && run_.expected(jobs_, "tile_walker")) {
       job();
@@ -120,6 +133,8 @@ class Scoreboard {
   void expect_no_more() {
     run_.expect_no_more(decisions_, "setup (decision)");
     run_.expect_no_more(triangles_, "setup");
+    run_.expect_no_more(to_visit_, "block_walker (emission)");
+    run_.expect_no_more(blocks_, "block_walker");
     run_.expect_no_more(to_emit_, "tile_walker (emission)");
     run_.expect_no_more(jobs_, "tile_walker");
     run_.expect_no_more(coverages_, "edge_evaluator");
@@ -151,21 +166,30 @@ class Scoreboard {
   void accept() {
     const ExpectedTriangle expected = take(triangles_);
     const auto& [draw, triangle] = expected.token;
-    run_.meter.begins(Stage::kTileWalker, draw);  // the cycle itself is still that of the triangle before
+    run_.meter.begins(Stage::kBlockWalker, draw);  // the cycle itself is still that of the triangle before
     run_.meter.give_back(Link::kSetup, run_.cycle + 1);
     run_.note(&PacketTimes::accept);
-    triangle_check_.compare(run_.cycle, to_packet(*triangle, walker_config_, TileSize),
-                            run_.pipeline.setup_triangle());
+    triangle_check_.compare(run_.cycle, to_packet(*triangle, walker_config_), run_.pipeline.setup_triangle());
     equation_check_.compare(run_.cycle,
                             to_packet(*triangle, draw->setup.depth_format, run_.config.depth.interpolator),
                             run_.pipeline.depth_equation());
     state_check_.compare(run_.cycle, expected.state, run_.pipeline.draw_state());
     const TriangleToken& token = expected.token;
-    walker_.walk<TileSize>(
-        *token.triangle, *token.draw, [&](const TileJob& job, TileWork work, std::uint32_t /*steps*/) {
-          to_emit_.push_back(token.draw);
-          jobs_.push_back({.draw = token.draw, .triangle = token.triangle, .job = job, .work = work});
-        });
+    walker_.walk<TileSize>(*token.triangle, *token.draw, [&](const BlockJob& block, std::uint32_t /*empty*/) {
+      to_visit_.push_back(token.draw);
+      blocks_.push_back({.draw = token.draw, .triangle = token.triangle, .block = block});
+      passage::tile_walker<TileSize>(block, walker_config_, *token.draw, [&](const TileJob& job, bool whole) {
+        to_emit_.push_back(token.draw);
+        jobs_.push_back({.draw = token.draw, .triangle = token.triangle, .job = job, .whole = whole});
+      });
+    });
+  }
+
+  /// The block leaves its FIFO, at whose head it was.
+  void block_done() {
+    const BlockToken expected = take(blocks_);
+    run_.meter.give_back(Link::kBlockWalker, run_.cycle + 1);
+    block_check_.compare(run_.cycle, expected.block, run_.pipeline.block_job());
   }
 
   void job() {
@@ -177,7 +201,7 @@ class Scoreboard {
     coverages_.push_back(
         {.draw = expected.draw,
          .triangle = std::move(expected.triangle),
-         .coverage = passage::edge_evaluator<TileSize>(expected.job, expected.work, *expected.draw)});
+         .coverage = passage::edge_evaluator<TileSize>(expected.job, expected.whole, *expected.draw)});
   }
 
   void coverage() {
@@ -252,12 +276,13 @@ class Scoreboard {
   MemoryPort& memory_;
   TestedSink<TileSize>& sink_;
   WalkerConfig walker_config_;
-  passage::TileWalker walker_;
+  passage::BlockWalker walker_;
   ZCache z_cache_;
 
   PacketCheck<SetupTrianglePacket> triangle_check_;
   PacketCheck<DepthEquationPacket> equation_check_;
   PacketCheck<DrawStatePacket> state_check_;
+  PacketCheck<BlockJob> block_check_;
   PacketCheck<TileJob> job_check_;
   PacketCheck<Coverage> coverage_check_;
   PacketCheck<QuadBeat> beat_check_;
@@ -265,6 +290,8 @@ class Scoreboard {
   // What is expected on each link.
   std::deque<TriangleToken> decisions_;
   std::deque<ExpectedTriangle> triangles_;
+  std::deque<DrawContext*> to_visit_;
+  std::deque<BlockToken> blocks_;
   std::deque<DrawContext*> to_emit_;
   std::deque<JobToken> jobs_;
   std::deque<CoverageToken> coverages_;

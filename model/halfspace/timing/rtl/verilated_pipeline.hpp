@@ -66,6 +66,7 @@ class VerilatedPipeline {
   [[nodiscard]] virtual std::span<const std::uint32_t> setup_triangle() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> depth_equation() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> draw_state() const = 0;
+  [[nodiscard]] virtual std::span<const std::uint32_t> block_job() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> tile_job() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> coverage() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> quad_beat() const = 0;

@@ -22,7 +22,7 @@ void EdgeEvaluator::evaluate() {
       meter_.busy(at + 1);
       next_ = at + 1;
       const Coverage coverage = with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
-        return passage::edge_evaluator<size()>(token.job, token.work, *token.draw);
+        return passage::edge_evaluator<size()>(token.job, token.whole, *token.draw);
       });
       out->use_credit();
       out->put({.draw = token.draw, .triangle = std::move(token.triangle), .coverage = coverage}, at);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
+#include "halfspace/timing/systemc/block_walker.hpp"
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/edge_evaluator.hpp"
 #include "halfspace/timing/systemc/quad_generator.hpp"
@@ -30,13 +31,15 @@ std::uint64_t depth_bytes(const Frame& frame, const Config& config) {
 struct RasterPipeline::Units {
   Units(RunState& run, FrameControl& control, std::uint64_t base)
       : setup_link(run, Fifo::kSetup),
-        walker_link(run, Fifo::kTileWalker),
+        block_link(run, Fifo::kBlockWalker),
+        tile_link(run, Fifo::kTileWalker),
         edge_link(run, Fifo::kEdgeEvaluator),
         quad_link(run, Fifo::kQuadGenerator),
         early_z_link(run, Fifo::kEarlyZ),
         source("source", run, control),
         setup("setup", run),
-        walker("tile_walker", run),
+        block_walker("block_walker", run),
+        tile_walker("tile_walker", run),
         edge_evaluator("edge_evaluator", run),
         quad_generator("quad_generator", run),
         early_z("early_z", run, base),
@@ -44,9 +47,11 @@ struct RasterPipeline::Units {
     source.out(setup);
     source.depth(early_z.control);
     setup.out(setup_link);
-    walker.in(setup_link);
-    walker.out(walker_link);
-    edge_evaluator.in(walker_link);
+    block_walker.in(setup_link);
+    block_walker.out(block_link);
+    tile_walker.in(block_link);
+    tile_walker.out(tile_link);
+    edge_evaluator.in(tile_link);
     edge_evaluator.out(edge_link);
     quad_generator.in(edge_link);
     quad_generator.out(quad_link);
@@ -57,7 +62,8 @@ struct RasterPipeline::Units {
 
   void begin_frame() {
     setup.begin_frame();
-    walker.begin_frame();
+    block_walker.begin_frame();
+    tile_walker.begin_frame();
     edge_evaluator.begin_frame();
     quad_generator.begin_frame();
     early_z.begin_frame();
@@ -65,13 +71,15 @@ struct RasterPipeline::Units {
   }
 
   CreditLink<TriangleToken> setup_link;
-  CreditLink<JobToken> walker_link;
+  CreditLink<BlockToken> block_link;
+  CreditLink<JobToken> tile_link;
   CreditLink<CoverageToken> edge_link;
   CreditLink<BurstToken> quad_link;
   CreditLink<TestedToken> early_z_link;
   Source source;
   Setup setup;
-  TileWalker walker;
+  BlockWalker block_walker;
+  TileWalker tile_walker;
   EdgeEvaluator edge_evaluator;
   QuadGenerator quad_generator;
   EarlyZ early_z;

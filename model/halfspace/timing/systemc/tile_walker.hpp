@@ -15,23 +15,20 @@ class TileWalker : public sc_core::sc_module {
   SC_HAS_PROCESS(TileWalker);
   TileWalker(const sc_core::sc_module_name& name, RunState& run);
 
-  sc_core::sc_port<CreditIn<TriangleToken>> in;
+  sc_core::sc_port<CreditIn<BlockToken>> in;
   sc_core::sc_port<CreditOut<JobToken>> out;
 
   void begin_frame();
 
  private:
   void walk();
-  /// Suspends until there is a credit.
-  void emit(const TileJob& job, TileWork work, std::uint32_t steps);
+  /// Suspends until there is a credit. The block can be seen from cycle `visible` on.
+  void emit(const TileJob& job, bool whole, Cycle visible);
 
   RunState& run_;
   StageMeter meter_;
-  passage::TileWalker walker_;
-  Cycle step_cycles_;
-  TriangleToken triangle_;  ///< at work
-  Cycle last_ = 0;          ///< cycle of the last emission, or of the load
-  Cycle done_ = 0;          ///< last step of the triangle before
+  WalkerConfig config_;
+  Cycle next_ = 0;  ///< of the next job
 };
 
 }  // namespace halfspace::systemc
