@@ -5,4 +5,5 @@ credit_fifo.sv
 pipe_register.sv
 block_position.sv
 block_edge.sv
+block_plane.sv
 block_walker.sv

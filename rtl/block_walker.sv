@@ -12,7 +12,9 @@ module block_walker
   /// that with 2 blocks cannot leave in every cycle.
   parameter int unsigned FifoDepth = 4,
   /// 0: every tile that the bounds touch is in the mask. Saves most of the gates.
-  parameter bit TrivialReject = 1'b1
+  parameter bit TrivialReject = 1'b1,
+  /// 1: the plane of depth is walked with the edges, for hi_z. 0: it is 0.
+  parameter bit HiZ = 1'b0
 ) (
   input  logic                clk_i,
   input  logic                rst_ni,
@@ -91,6 +93,31 @@ module block_walker
       .b_o       (job_d.b[i]),
       .outside_o (outside[i])
     );
+  end
+
+  if (HiZ) begin : gen_plane
+    block_plane u_plane (
+      .clk_i     (clk_i),
+      .load_i    (load),
+      .z_i       (triangle_i.z),
+      .dx_i      (triangle_i.z_dx),
+      .dy_i      (triangle_i.z_dy),
+      .known_i   (triangle_i.z_known),
+      .advance_i (step),
+      .row_end_i (row_end),
+      .z_o       (job_d.z),
+      .dx_o      (job_d.z_dx),
+      .dy_o      (job_d.z_dy),
+      .known_o   (job_d.z_known)
+    );
+  end else begin : gen_no_plane
+    assign job_d.z       = '0;
+    assign job_d.z_dx    = '0;
+    assign job_d.z_dy    = '0;
+    assign job_d.z_known = '0;
+
+    logic unused_plane;
+    assign unused_plane = ^{triangle_i.z, triangle_i.z_dx, triangle_i.z_dy, triangle_i.z_known};
   end
 
   always_comb begin

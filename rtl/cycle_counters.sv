@@ -20,6 +20,7 @@ module cycle_counters
 );
 
   localparam int unsigned StageBits = $clog2(StageCount + 1);
+  localparam int unsigned IndexBits = $clog2(StageCount);
   typedef logic [CounterBits-1:0] count_t;
 
   // One write port a stage: it spends a cycle on one thing. No activity has a number of ActivityCount or above.
@@ -61,7 +62,7 @@ module cycle_counters
   always_comb begin
     count_d = '0;
     if (stage < StageBits'(StageCount) && activity < ActivityBits'(ActivityCount)) begin
-      count_d = stage_q[stage][activity];
+      count_d = stage_q[stage[IndexBits-1:0]][activity];
     end else if (stage == StageBits'(StageCount)) begin
       count_d = activity == '0 ? read_q : activity == ActivityBits'(1) ? write_q : '0;
     end

@@ -13,6 +13,8 @@ z_bank.sv
 z_clear_flags.sv
 z_lookup.sv
 z_write_buffer.sv
+z_extremes_stage.sv
+z_extremes.sv
 z_test.sv
 z_control.sv
 early_z.sv

@@ -36,6 +36,8 @@ module early_z
   parameter int unsigned ClearTiles = 64,
   /// Tiles of all surfaces, 2 or more: a bit each for each part.
   parameter int unsigned MemoryTiles = 1024,
+  /// 1: says what each burst leaves stored, for hi_z. 0: update_valid_o and update_o are 0.
+  parameter bit HiZ = 1'b0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
@@ -59,6 +61,10 @@ module early_z
   output logic                 beat_valid_o,
   input  logic                 beat_ready_i,
   output tested_beat_t         beat_o,
+
+  // hi_z: what a burst leaves stored, for each in order, four cycles after the test of its last beat.
+  output logic                 update_valid_o,
+  output hi_z_update_t         update_o,
 
   // Memory reads: requests, and their data in the same order. A line has 2 bytes a sample (half) or 4.
   output logic                 read_valid_o,
@@ -485,7 +491,8 @@ module early_z
     .WriteBuffers   (WriteBuffers),
     .ReadBytes      (ReadBytes),
     .WriteBytes     (WriteBytes),
-    .MemoryTiles    (MemoryTiles)
+    .MemoryTiles    (MemoryTiles),
+    .HiZ            (HiZ)
   ) u_test (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -512,6 +519,8 @@ module early_z
     .beat_valid_o     (beat_valid_o),
     .beat_ready_i     (beat_ready_i),
     .beat_o           (beat_o),
+    .update_valid_o   (update_valid_o),
+    .update_o         (update_o),
     .burst_done_o     (burst_done),
     .fill_free_o      (fill_free),
     .stored_o         (stored),

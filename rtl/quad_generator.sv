@@ -26,6 +26,10 @@ module quad_generator
   input  logic       beat_ready_i,
   output quad_beat_t beat_o,
 
+  // hi_z: a coverage was taken in the cycle before; whether it has a quad.
+  output logic       job_taken_o,
+  output logic       job_burst_o,
+
   // What the cycle is spent on; whether nothing is left to do.
   output quad_generator_activity_e activity_o,
   output logic       idle_o
@@ -121,18 +125,21 @@ module quad_generator
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       beats_q <= '0;
+      first_q <= 1'b0;
       ready_q <= 1'b0;
     end else begin
       beats_q <= beats_d;
+      first_q <= accepted;
       ready_q <= credit_next & (beats_d == '0 || beats_d == beats_t'(1));
     end
   end
 
   assign coverage_ready_o = ready_q;
+  assign job_taken_o      = first_q;
+  assign job_burst_o      = first_q && beats_q != '0;
 
   // Needs no reset: beats_q says whether it means anything. Without a burst in work no quads are left.
   always_ff @(posedge clk_i) begin
-    first_q <= accepted;
     if (accepted) begin
       quads_q   <= coverage_quads;
       samples_q <= coverage_samples;

@@ -1,5 +1,5 @@
-// The pipeline: setup, block_walker, tile_walker, edge_evaluator, quad_generator and early_z in a row, and the counters of
-// their cycles. Triangles go in, tested quads come out; early_z has the memory port.
+// The pipeline: setup, block_walker, hi_z where the machine has it, tile_walker, edge_evaluator, quad_generator and early_z
+// in a row, and the counters of their cycles. Triangles go in, tested quads come out; early_z has the memory port.
 //
 // A clear or a flush is taken in a cycle in which nothing is left to do anywhere. Whoever offers one offers no triangle
 // until it is done.
@@ -13,6 +13,10 @@ module raster_pipeline
   parameter int unsigned SetupFifo = 40,
   parameter bit          TrivialReject = 1'b1,
   parameter int unsigned BlockFifo = 4,
+  parameter bit          HiZ = 1'b0,
+  parameter int unsigned HiZBits = 8,
+  parameter int unsigned HiZLag = 128,
+  parameter int unsigned HiZFifo = 8,
   parameter bit          TrivialAccept = 1'b1,
   parameter int unsigned WalkerFifo = 16,
   parameter int unsigned PipeStages = 2,
@@ -31,9 +35,12 @@ module raster_pipeline
   parameter int unsigned WriteBytes = 64,
   /// Tiles of all surfaces, 2 or more.
   parameter int unsigned MemoryTiles = 65536,
+  /// Blocks of all surfaces, 2 or more: a word each in hi_z.
+  parameter int unsigned MemoryBlocks = 16384,
   /// Bits of a cycle counter.
   parameter int unsigned CounterBits = 50,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
+  localparam int unsigned BlockBits = $clog2(MemoryBlocks),
   localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
   localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
@@ -71,6 +78,8 @@ module raster_pipeline
   input  logic                 clear_valid_i,
   input  logic [TileBits-1:0]  clear_first_i,
   input  logic [TileBits-1:0]  clear_last_i,
+  input  logic [BlockBits-1:0] clear_first_block_i,
+  input  logic [BlockBits-1:0] clear_last_block_i,
   output logic                 clear_done_o,
   input  logic                 flush_i,
   output logic                 flush_done_o,
@@ -81,9 +90,11 @@ module raster_pipeline
   output logic [CounterBits-1:0]                       counter_o
 );
 
-  logic setup_idle, block_idle, tile_idle, edge_idle, quad_idle, units_idle, early_z_idle;
+  logic setup_idle, block_idle, hi_z_idle, tile_idle, edge_idle, quad_idle, walkers_idle, units_idle,
+        early_z_idle;
   setup_activity_e          setup_activity;
   block_walker_activity_e   block_activity;
+  hi_z_activity_e           hi_z_activity;
   tile_walker_activity_e    tile_activity;
   edge_evaluator_activity_e edge_activity;
   quad_generator_activity_e quad_activity;
@@ -99,7 +110,8 @@ module raster_pipeline
     .QueueDepth   (SetupQueue),
     .FifoDepth    (SetupFifo),
     .Interval     (SetupInterval),
-    .Interpolator (Interpolator)
+    .Interpolator (Interpolator),
+    .HiZ          (HiZ)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -120,12 +132,13 @@ module raster_pipeline
   logic [SlotBits-1:0] slot;
   depth_equation_t     slot_equation;
   draw_state_t         slot_state;
-  logic                block_valid, block_ready;
-  block_job_t          block_job;
+  logic                walked_valid, walked_ready;
+  block_job_t          walked_job;
 
   block_walker #(
     .FifoDepth     (BlockFifo),
-    .TrivialReject (TrivialReject)
+    .TrivialReject (TrivialReject),
+    .HiZ           (HiZ)
   ) u_block_walker (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -138,12 +151,66 @@ module raster_pipeline
     .slot_o           (slot),
     .slot_equation_o  (slot_equation),
     .slot_state_o     (slot_state),
-    .block_valid_o    (block_valid),
-    .block_ready_i    (block_ready),
-    .block_o          (block_job),
+    .block_valid_o    (walked_valid),
+    .block_ready_i    (walked_ready),
+    .block_o          (walked_job),
     .activity_o       (block_activity),
     .idle_o           (block_idle)
   );
+
+  logic         block_valid, block_ready;
+  block_job_t   block_job;
+  logic         job_taken, job_burst, update_valid;
+  hi_z_update_t update;
+
+  if (HiZ) begin : gen_hi_z
+    // A clear waits until hi_z has applied all jobs. It is done no later than early_z with its part of a clear: a surface
+    // has no more blocks than tiles.
+    logic unused_clear_done;
+
+    hi_z #(
+      .FifoDepth    (HiZFifo),
+      .Bits         (HiZBits),
+      .Lag          (HiZLag),
+      .MemoryBlocks (MemoryBlocks),
+      .ClearBlocks  (ClearTiles)
+    ) u_hi_z (
+      .clk_i           (clk_i),
+      .rst_ni          (rst_ni),
+      .slot_write_i    (slot_write),
+      .slot_i          (slot),
+      .slot_equation_i (slot_equation),
+      .slot_state_i    (slot_state),
+      .block_valid_i   (walked_valid),
+      .block_ready_o   (walked_ready),
+      .block_i         (walked_job),
+      .block_valid_o   (block_valid),
+      .block_ready_i   (block_ready),
+      .block_o         (block_job),
+      .job_valid_i     (job_taken),
+      .job_burst_i     (job_burst),
+      .update_valid_i  (update_valid),
+      .update_i        (update),
+      .drain_i         (clear_valid_i & walkers_idle & early_z_idle),
+      .clear_i         (clear_valid_i & idle_o),
+      .clear_first_i   (clear_first_block_i),
+      .clear_last_i    (clear_last_block_i),
+      .clear_done_o    (unused_clear_done),
+      .forget_i        (flush_done_o),
+      .activity_o      (hi_z_activity),
+      .idle_o          (hi_z_idle)
+    );
+  end else begin : gen_no_hi_z
+    assign block_valid   = walked_valid;
+    assign walked_ready  = block_ready;
+    assign block_job     = walked_job;
+    assign hi_z_activity = HiZNoBlock;
+    assign hi_z_idle     = 1'b1;
+
+    logic unused_hi_z;
+    assign unused_hi_z = ^{job_taken, job_burst, update_valid, update, clear_first_block_i,
+                           clear_last_block_i};
+  end
 
   logic      job_valid, job_ready;
   tile_job_t job;
@@ -197,12 +264,15 @@ module raster_pipeline
     .beat_valid_o     (beat_valid),
     .beat_ready_i     (beat_ready),
     .beat_o           (beat),
+    .job_taken_o      (job_taken),
+    .job_burst_o      (job_burst),
     .activity_o       (quad_activity),
     .idle_o           (quad_idle)
   );
 
-  assign units_idle = setup_idle & block_idle & tile_idle & edge_idle & quad_idle;
-  assign idle_o     = units_idle & early_z_idle;
+  assign walkers_idle = setup_idle & block_idle & tile_idle & edge_idle & quad_idle;
+  assign units_idle   = walkers_idle & hi_z_idle;
+  assign idle_o       = units_idle & early_z_idle;
 
   early_z #(
     .PendingDepth        (PendingDepth),
@@ -216,7 +286,8 @@ module raster_pipeline
     .ReadBytes           (ReadBytes),
     .WriteBytes          (WriteBytes),
     .ClearTiles          (ClearTiles),
-    .MemoryTiles         (MemoryTiles)
+    .MemoryTiles         (MemoryTiles),
+    .HiZ                 (HiZ)
   ) u_early_z (
     .clk_i             (clk_i),
     .rst_ni            (rst_ni),
@@ -230,6 +301,8 @@ module raster_pipeline
     .beat_valid_o      (beat_valid_o),
     .beat_ready_i      (beat_ready_i),
     .beat_o            (beat_o),
+    .update_valid_o    (update_valid),
+    .update_o          (update),
     .read_valid_o      (read_valid_o),
     .read_ready_i      (read_ready_i),
     .read_line_o       (read_line_o),
@@ -254,8 +327,8 @@ module raster_pipeline
   );
 
   assign activity_o = {
-    test_activity, lookup_activity, quad_activity, edge_activity, tile_activity, block_activity,
-    setup_activity
+    test_activity, lookup_activity, quad_activity, edge_activity, tile_activity, hi_z_activity,
+    block_activity, setup_activity
   };
 
   cycle_counters #(

@@ -76,6 +76,10 @@ package raster_pkg;
   parameter int unsigned HalfGradientBits = 43;
   // power of two above all depths of a triangle, signed
   parameter int unsigned ExponentBits = 9;
+  // depth as hi_z sees it: a word of 32 bits, 16 bits below it, and 2 above, signed
+  parameter int unsigned HiZWordBits = 50;
+  // its change for a pixel, signed
+  parameter int unsigned HiZStepBits = 42;
   // a stored depth code of any format
   parameter int unsigned CodeBits = 32;
   // (2^63 - 1) / (2A scaled to 32 bits)
@@ -100,6 +104,8 @@ package raster_pkg;
   typedef logic signed [CoordBits-1:0] coord_t;
   typedef logic signed [VertexDepthBits-1:0] vertex_depth_t;
   typedef logic signed [EdgeBits-1:0] edge_t;
+  typedef logic signed [HiZWordBits-1:0] hi_z_word_t;
+  typedef logic signed [HiZStepBits-1:0] hi_z_step_t;
   typedef logic signed [StepBits-1:0] step_t;
   typedef logic signed [ShiftBits-1:0] shift_t;
   typedef logic signed [WordBits-1:0] word_t;
@@ -133,11 +139,17 @@ package raster_pkg;
     logic [CodeBits-1:0] clear_code;
     logic [LineBits-1:0] first_tile;
     logic [TileCoordBits-1:0] tiles_x;
+    logic [LineBits-1:0] first_block;
+    logic [BlockCoordBits-1:0] blocks_x;
   } draw_state_t;
 
   // setup -> block_walker: what the walk needs
   typedef struct packed {
     edge_t [2:0] e;
+    hi_z_word_t z;
+    hi_z_step_t z_dx;
+    hi_z_step_t z_dy;
+    logic [FlagBits-1:0] z_known;
     step_t [2:0] a;
     step_t [2:0] b;
     logic [PixelBits-1:0] x_first;
@@ -180,6 +192,10 @@ package raster_pkg;
     logic [BlockLog2-1:0] y_first;
     logic [BlockLog2-1:0] y_last;
     logic [BlockTiles-1:0] tiles;
+    hi_z_word_t z;
+    hi_z_step_t z_dx;
+    hi_z_step_t z_dy;
+    logic [FlagBits-1:0] z_known;
   } block_job_t;
 
   // tile_walker -> edge_evaluator
@@ -218,6 +234,13 @@ package raster_pkg;
     logic [QuadWidth-1:0] [QuadMaskBits-1:0] mask;
   } quad_beat_t;
 
+  // early_z -> hi_z: what is stored behind a burst
+  typedef struct packed {
+    logic [ZParts-1:0] [FlagBits-1:0] touched;
+    logic [ZParts-1:0] [CodeBits-1:0] least;
+    logic [ZParts-1:0] [CodeBits-1:0] most;
+  } hi_z_update_t;
+
   // early_z -> fragment shader: a beat of a burst
   typedef struct packed {
     logic [SlotBits-1:0] slot;
@@ -231,7 +254,7 @@ package raster_pkg;
   } tested_beat_t;
 
   // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait
-  parameter int unsigned StageCount = 7;
+  parameter int unsigned StageCount = 8;
   parameter int unsigned ActivityCount = 6;
   parameter int unsigned ActivityBits = $clog2(ActivityCount);
 
@@ -250,6 +273,14 @@ package raster_pkg;
     BlockWalkerLoad = 2,
     BlockWalkerNoCredit = 3
   } block_walker_activity_e;
+
+  // a cycle of hi_z
+  typedef enum logic [ActivityBits-1:0] {
+    HiZBusy = 0,
+    HiZNoBlock = 1,
+    HiZNoUpdate = 2,
+    HiZNoCredit = 3
+  } hi_z_activity_e;
 
   // a cycle of tile_walker
   typedef enum logic [ActivityBits-1:0] {
@@ -295,16 +326,17 @@ package raster_pkg;
   parameter int unsigned EventDecide = 0;  // setup draws or drops a triangle
   parameter int unsigned EventAccept = 1;  // block_walker takes a triangle
   parameter int unsigned EventBlock = 2;  // block_walker makes a block job
-  parameter int unsigned EventBlockDone = 3;  // tile_walker makes the last tile job of a block job
-  parameter int unsigned EventEmit = 4;  // tile_walker makes a tile job
-  parameter int unsigned EventJob = 5;  // edge_evaluator takes a tile job
-  parameter int unsigned EventCoverage = 6;  // quad_generator takes a coverage
-  parameter int unsigned EventBeat = 7;  // z_lookup takes a beat
-  parameter int unsigned EventFirstBeat = 8;  // it is the first of its burst
-  parameter int unsigned EventLastBeat = 9;  // it is the last of its burst
-  parameter int unsigned EventTestFirst = 10;  // z_test tests the first beat of a burst
-  parameter int unsigned EventTestLast = 11;  // z_test tests the last beat of a burst
-  parameter int unsigned EventCount = 12;
+  parameter int unsigned EventHiZ = 3;  // hi_z takes a block
+  parameter int unsigned EventBlockDone = 4;  // tile_walker makes the last tile job of a block job
+  parameter int unsigned EventEmit = 5;  // tile_walker makes a tile job
+  parameter int unsigned EventJob = 6;  // edge_evaluator takes a tile job
+  parameter int unsigned EventCoverage = 7;  // quad_generator takes a coverage
+  parameter int unsigned EventBeat = 8;  // z_lookup takes a beat
+  parameter int unsigned EventFirstBeat = 9;  // it is the first of its burst
+  parameter int unsigned EventLastBeat = 10;  // it is the last of its burst
+  parameter int unsigned EventTestFirst = 11;  // z_test tests the first beat of a burst
+  parameter int unsigned EventTestLast = 12;  // z_test tests the last beat of a burst
+  parameter int unsigned EventCount = 13;
 
 endpackage : raster_pkg
 

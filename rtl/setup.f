@@ -12,4 +12,5 @@ reciprocal_stage.sv
 reciprocal.sv
 quotient_digits.sv
 setup_plane.sv
+setup_hi_z.sv
 setup.sv

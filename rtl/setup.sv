@@ -19,7 +19,9 @@ module setup
   /// Cycles from one drawn triangle to the next: 1, 2, 4, 8 or 16. The divider has 16 / Interval stages.
   parameter int unsigned Interval = 1,
   /// Interpolator of depth, 0 plane or 1 barycentric: which equation is made.
-  parameter int unsigned Interpolator = Plane
+  parameter int unsigned Interpolator = Plane,
+  /// 1: the plane for hi_z is made, where the interpolator is the plane. 0: it is 0.
+  parameter bit HiZ = 1'b0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -137,6 +139,13 @@ module setup
     logic [1:0] [HalfGradientBits-1:0]  dy;
   } divided_t;
 
+  typedef struct packed {
+    hi_z_word_t z;
+    hi_z_step_t dx;
+    hi_z_step_t dy;
+    logic       known;
+  } hi_z_plane_t;
+
   known_t known_d, known;
   edges_t edges_d, edges;
   depth_t depth_d, depth;
@@ -146,6 +155,7 @@ module setup
   logic   reciprocal_valid, reciprocal_kept, divided_valid, leave;
   logic [ReciprocalBits-1:0] quotient;
   divided_t divided_d, divided;
+  hi_z_plane_t hi_z_plane;
 
   // What only the other equation has stays 0.
   logic with_weights, with_plane;
@@ -217,8 +227,11 @@ module setup
   if (Interpolator == Plane) begin : gen_plane
     // Depths that are 0 have gradients that are 0.
     logic [1:0] [HalfGradientBits-1:0] dx, dy;
+    logic                              gradients_short, gradients_large;
 
-    setup_plane u_plane (
+    setup_plane #(
+      .HiZ (HiZ)
+    ) u_plane (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
       .valid_i      (draw),
@@ -231,10 +244,65 @@ module setup
       .reciprocal_i (quotient),
       .valid_o      (divided_valid),
       .dx_o         (dx),
-      .dy_o         (dy)
+      .dy_o         (dy),
+      .short_o      (gradients_short),
+      .large_o      (gradients_large)
     );
 
     assign divided_d = '{reciprocal: '0, dx: dx, dy: dy};
+
+    if (HiZ) begin : gen_hi_z
+      hi_z_plane_t hi_z_plane_d;
+      logic        hi_z_plane_there;
+
+      setup_hi_z #(
+        .FifoDepth (FifoDepth)
+      ) u_hi_z (
+        .clk_i             (clk_i),
+        .rst_ni            (rst_ni),
+        .valid_i           (draw),
+        .x_i               (verdict.triangle.x[0]),
+        .y_i               (verdict.triangle.y[0]),
+        .x_first_i         (verdict.bounds.x_first),
+        .y_first_i         (verdict.bounds.y_first),
+        .format_i          (verdict.state.format),
+        .depth_valid_i     (depth_valid),
+        .word_i            (depth_d.word),
+        .beyond_i          (depth_d.beyond),
+        .exponent_i        (depth_d.exponent),
+        .offset_i          (depth_d.offset),
+        .gradients_valid_i (divided_valid),
+        .dx_i              (dx),
+        .dy_i              (dy),
+        .short_i           (gradients_short),
+        .large_i           (gradients_large),
+        .z_o               (hi_z_plane_d.z),
+        .dx_o              (hi_z_plane_d.dx),
+        .dy_o              (hi_z_plane_d.dy),
+        .known_o           (hi_z_plane_d.known)
+      );
+
+      memory_fifo #(
+        .Width ($bits(hi_z_plane_t)),
+        .Slots (FifoDepth)
+      ) u_hi_z_planes (
+        .clk_i       (clk_i),
+        .rst_ni      (rst_ni),
+        .push_i      (divided_valid),
+        .data_i      (hi_z_plane_d),
+        .pop_valid_o (hi_z_plane_there),
+        .pop_ready_i (leave),
+        .data_o      (hi_z_plane)
+      );
+
+      logic unused_there;
+      assign unused_there = hi_z_plane_there;
+    end else begin : gen_no_hi_z
+      assign hi_z_plane = '0;
+
+      logic unused_gradients;
+      assign unused_gradients = gradients_short ^ gradients_large;
+    end
 
     logic unused_reciprocal;
     assign unused_reciprocal = reciprocal_valid ^ reciprocal_kept;
@@ -246,11 +314,13 @@ module setup
       dy:         '0
     };
 
+    assign hi_z_plane = '0;
+
     logic unused_words;
     assign unused_words = ^{words, is_short};
   end
 
-  // A slot is a word of four memories, the last of which is filled last.
+  // A slot is a word of four memories, the last of which is filled last. With HiZ a fifth is filled with it.
   logic fifo_empty, unused_ready_next;
 
   credits #(
@@ -323,6 +393,10 @@ module setup
 
   assign triangle_o = '{
     e:       edges.e,
+    z:       hi_z_plane.z,
+    z_dx:    hi_z_plane.dx,
+    z_dy:    hi_z_plane.dy,
+    z_known: hi_z_plane.known,
     a:       edges.a,
     b:       edges.b,
     x_first: known.bounds.x_first,

@@ -12,7 +12,10 @@ module setup_plane
   import raster_pkg::*;
   import setup_pkg::*;
   import depth_pkg::*;
-(
+#(
+  /// 0: short_o and large_o are 0.
+  parameter bit HiZ = 1'b0
+) (
   input  logic          clk_i,
   input  logic          rst_ni,
 
@@ -32,7 +35,9 @@ module setup_plane
   // 34 cycles later.
   output logic                                  valid_o,
   output logic [1:0] [HalfGradientBits-1:0]     dx_o,
-  output logic [1:0] [HalfGradientBits-1:0]     dy_o
+  output logic [1:0] [HalfGradientBits-1:0]     dy_o,
+  output logic                                  short_o,
+  output logic                                  large_o  // a pixel changes depth by 2^26 units of a word of 32 bits, or more
 );
 
   localparam int unsigned Divided = 17; // the cycle in which the reciprocal is there
@@ -271,6 +276,37 @@ module setup_plane
       dx_o <= signed_gradient(x_quotient[Steps], x_negative_q[Latency-1], short_q[Latency-1]);
       dy_o <= signed_gradient(y_quotient[Steps], y_negative_q[Latency-1], short_q[Latency-1]);
     end
+  end
+
+  if (HiZ) begin : gen_large
+    // What the modulus leaves of a large gradient may be small. So it is the digits of the first two steps that tell: the
+    // last of them is worth 2^69.
+    localparam int unsigned Known = Divided + 1 + 3 * 2;
+    localparam int unsigned Digits = 23 * 2;
+    localparam int unsigned Least = 26 + ShortBits + GradientFraction - SubPixelBits - (DividendBits - Digits);
+
+    logic [Latency:Known+1] large_q;
+    logic                   short_out_q;
+
+    always_ff @(posedge clk_i) begin
+      if (valid[Known]) begin
+        large_q[Known+1] <= {x_quotient[2][Digits-1:Least], y_quotient[2][Digits-1:Least]} != '0;
+      end
+      for (int unsigned i = Known + 2; i <= Latency; i++) begin
+        if (valid[i-1]) begin
+          large_q[i] <= large_q[i-1];
+        end
+      end
+      if (valid[Latency-1]) begin
+        short_out_q <= short_q[Latency-1];
+      end
+    end
+
+    assign short_o = short_out_q;
+    assign large_o = large_q[Latency];
+  end else begin : gen_no_large
+    assign short_o = 1'b0;
+    assign large_o = 1'b0;
   end
 
   logic unused_rest;

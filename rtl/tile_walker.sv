@@ -59,6 +59,10 @@ module tile_walker
 
   assign block_ready_o = credit & (rest == '0);
 
+  // Only hi_z looks at depth.
+  logic unused_plane;
+  assign unused_plane = ^{block_i.z, block_i.z_dx, block_i.z_dy, block_i.z_known};
+
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       left_q <= '1;

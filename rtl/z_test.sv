@@ -25,6 +25,8 @@ module z_test
   parameter int unsigned WriteBytes = 64,
   /// Tiles of all surfaces, 2 or more.
   parameter int unsigned MemoryTiles = 1024,
+  /// 1: says what each burst leaves stored, for hi_z. 0: update_valid_o and update_o are 0.
+  parameter bit HiZ = 1'b0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned PartLines = Lines / ZParts,
   localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1,
@@ -65,6 +67,11 @@ module z_test
   output logic                                   beat_valid_o,
   input  logic                                   beat_ready_i,
   output tested_beat_t                           beat_o,
+
+  // To hi_z, for each burst in order, four cycles after the test of its last beat: the least and the greatest code in each
+  // part of the tile in which it has quads. All is 0 if its draw does not touch depth.
+  output logic                                   update_valid_o,
+  output hi_z_update_t                           update_o,
 
   // To the lookup.
   output logic                                   burst_done_o,
@@ -406,6 +413,39 @@ module z_test
         end
       end
     end
+  end
+
+  // What the burst leaves: its last beat sees all that the others have written.
+  if (HiZ) begin : gen_update
+    logic [ZParts-1:0] parts, parts_q;  // in which the burst has quads: of the beats up to this one; before it
+
+    always_comb begin
+      parts = first_q ? '0 : parts_q;
+      for (int unsigned v = 0; v < TestWidth; v++) begin
+        for (int unsigned p = 0; p < ZParts; p++) begin
+          parts[p] |= beat_q.mask[v] != '0 && int'(beat_q.index[v]) / PartQuads == p;
+        end
+      end
+    end
+
+    always_ff @(posedge clk_i) begin
+      if (fire) begin
+        parts_q <= parts;
+      end
+    end
+
+    z_extremes u_extremes (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .valid_i        (burst_done_o),
+      .parts_i        (touches_q ? parts : '0),
+      .codes_i        (updated),
+      .update_valid_o (update_valid_o),
+      .update_o       (update_o)
+    );
+  end else begin : gen_no_update
+    assign update_valid_o = 1'b0;
+    assign update_o       = '0;
   end
 
   // Dirty slots.

@@ -45,18 +45,25 @@ GROUPS = {
         ["--tiles", "12000"],
         ["setup_plane", "quotient_digits", "setup_depth"],
     ),
+    "setup_hi_z": Group("setup", ["hi_z_t8_s8", "hi_z_t4_s4"], ["--tiles", "12000"], ["setup_hi_z"]),
     # The modules that other units have too are mutated there: these have only a part of what credit_fifo can be.
     "block_walker": Group(
         "block_walker",
-        ["t8_b32", "t4_b32", "t16_b32_noreject"],
+        ["t8_b32", "t8_b32_hi_z", "t4_b32", "t16_b32_noreject"],
         ["--tiles", "40000"],
-        ["block_walker", "block_position", "block_edge"],
+        ["block_walker", "block_position", "block_edge", "block_plane"],
     ),
     "tile_walker": Group(
         "tile_walker",
         ["t8_b32", "t4_b32", "t16_b32_noaccept"],
         ["--tiles", "40000"],
         ["tile_walker", "tile_edge"],
+    ),
+    "hi_z": Group(
+        "hi_z",
+        ["lag8", "parts", "lag1"],
+        ["--blocks", "60000"],
+        ["hi_z", "hi_z_memory", "hi_z_word", "hi_z_test", "hi_z_plane", "hi_z_flights", "hi_z_states"],
     ),
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),

@@ -78,9 +78,32 @@ def _walker(name, switch) -> Unit:
             of(8, 16),
             of(8, 64),
             of(8, 32, **{switch: "1'b0"}),
+            *((of(8, 32, HiZ="1'b1"),) if name == "block_walker" else ()),
             of(8, 32, 4, False),
             of(4, 8, 5, False, FifoDepth=2),
             of(16, 64, 6, False, FifoDepth=8),
+        ),
+    )
+
+
+def _hi_z() -> Unit:
+    def of(tile, block, parts=1, measured=True, **parameters):
+        defines = {"TILE_SIZE": tile, "BLOCK_SIZE": block}
+        defines |= {"Z_PARTS": parts} if parts != 1 else {}
+        # Of 9 x 10 bits (blocks of 32): block_y times the blocks in a row.
+        return Configuration("hi_z", defines, parameters, 1, measured=measured, long=parts == 4)
+
+    return Unit(
+        "hi_z",
+        ("hi_z",),
+        (
+            of(8, 32),
+            of(8, 32, Bits=4),
+            of(8, 32, Lag=32),
+            of(8, 16),
+            of(8, 32, 4, False, Bits=16),
+            of(4, 8, 4, False, Bits=32, Lag=1, FifoDepth=2, MemoryBlocks=2, ClearBlocks=1),
+            of(16, 64, 2, False, FifoDepth=16, MemoryBlocks=5000, ClearBlocks=1024),
         ),
     )
 
@@ -114,11 +137,13 @@ SETUP_MULTIPLIERS = {
 
 def _setup() -> Unit:
     def of(sub_pixel, interval, interpolator, measured=True, **parameters):
+        # setup_hi_z has two.
+        hi_z = 2 if "HiZ" in parameters and interpolator == PLANE else 0
         return Configuration(
             "setup",
             {"SUB_PIXEL_BITS": sub_pixel},
             {"Interval": interval, "Interpolator": interpolator, **parameters},
-            multipliers=SETUP_MULTIPLIERS[interpolator],
+            multipliers=SETUP_MULTIPLIERS[interpolator] + hi_z,
             measured=measured,
             long=interpolator == PLANE,
         )
@@ -129,8 +154,10 @@ def _setup() -> Unit:
         (
             *(of(8, interval, BARYCENTRIC) for interval in (1, 4, 16)),
             of(8, 1, PLANE),
+            of(8, 1, PLANE, HiZ="1'b1"),
             of(4, 1, BARYCENTRIC, False),
             of(4, 1, PLANE, False),
+            of(4, 1, PLANE, False, HiZ="1'b1"),
             of(5, 2, BARYCENTRIC, False, FifoDepth=2),
             of(6, 8, BARYCENTRIC, False, QueueDepth=2),
         ),
@@ -171,6 +198,7 @@ def _early_z() -> Unit:
             whole(4, BARYCENTRIC, False, long=True),
             whole(2, BARYCENTRIC, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
             whole(1, PLANE, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
+            whole(1, PLANE, False, long=True, HiZ="1'b1"),
         ),
     )
 
@@ -187,6 +215,7 @@ def _early_z_parts() -> Unit:
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
+            *(Configuration("z_extremes", {"TILE_SIZE": tile}) for tile in (8, 16)),
         ),
     )
 
@@ -232,6 +261,7 @@ UNITS = {
         _edge_evaluator(),
         _walker("block_walker", "TrivialReject"),
         _walker("tile_walker", "TrivialAccept"),
+        _hi_z(),
         _quad_generator(),
         _setup(),
         _early_z(),

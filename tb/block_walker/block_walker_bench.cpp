@@ -52,7 +52,7 @@ std::uint64_t modelled_cycles(const std::vector<SetupTriangle>& triangles,
     std::uint32_t empty = 0;
     for (const BlockStep& step : reference_walk(words, 0, parameters)) {
       if (step.leaves()) {
-        core.block(empty);
+        core.block(empty, 1);
         core.job({});
         core.block_done();
       }

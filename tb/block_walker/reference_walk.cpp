@@ -11,8 +11,9 @@
 namespace halfspace::tb {
 namespace {
 
-/// The packet has E at the first pixel of the first block of the bounds.
-SetupTriangle to_model(const SetupTrianglePacket& packet, const WalkSizes& sizes) {
+/// The packet has E and the plane at the first pixel of the first block of the bounds.
+SetupTriangle to_model(const SetupTrianglePacket& packet, const BlockWalkerParameters& parameters) {
+  const WalkSizes& sizes = parameters.sizes;
   SetupTriangle triangle;
   triangle.bounds = {packet.x_first, packet.y_first, packet.x_last, packet.y_last};
   const std::int64_t x = packet.x_first / sizes.block_size * sizes.block_size;
@@ -22,6 +23,12 @@ SetupTriangle to_model(const SetupTrianglePacket& packet, const WalkSizes& sizes
     edge.a = packet.a[i];
     edge.b = packet.b[i];
     edge.c = packet.e[i] - ((edge.a * x + edge.b * y) << sizes.sub_pixel_bits);
+  }
+  if (parameters.hi_z) {
+    triangle.plane = {.z = packet.z - packet.z_dx * x - packet.z_dy * y,
+                      .dx = packet.z_dx,
+                      .dy = packet.z_dy,
+                      .known = packet.z_known != 0};
   }
   return triangle;
 }
@@ -79,7 +86,7 @@ InputWords::InputWords(const Widths& widths)
 std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle, std::uint8_t slot,
                                       const BlockWalkerParameters& parameters) {
   const SetupTriangle model =
-      to_model(unpack<SetupTrianglePacket>(triangle, parameters.sizes.widths()), parameters.sizes);
+      to_model(unpack<SetupTrianglePacket>(triangle, parameters.sizes.widths()), parameters);
   std::vector<BlockStep> steps;
   StepSink sink(parameters, steps);
   with_tile_size(parameters.sizes.tile_size,

@@ -18,6 +18,7 @@ struct BlockWalkerParameters {
   WalkSizes sizes;
   int fifo_depth = 4;
   bool trivial_reject = true;
+  bool hi_z = false;
 
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = sizes.sub_pixel_bits,

@@ -33,10 +33,15 @@ class TriangleStimulus : public Stimulus {
   void reset() final { slot_ = 0; }
 
  protected:
-  /// The triangle, with bits of their own in equation and state.
+  /// The triangle, with bits of their own in plane, equation and state.
   void fill(const SetupTriangle& triangle, std::span<std::uint32_t> packet) {
     const Widths widths = parameters_.sizes.widths();
-    pack(to_packet(triangle, parameters_.walker()), widths, packet.first(words_.triangle));
+    SetupTrianglePacket walked = to_packet(triangle, parameters_.walker());
+    walked.z = signed_bits(widths.HiZWordBits);
+    walked.z_dx = signed_bits(widths.HiZStepBits);
+    walked.z_dy = signed_bits(widths.HiZStepBits);
+    walked.z_known = payload_.bits() & 1;
+    pack(walked, widths, packet.first(words_.triangle));
     randomise(packet.subspan(words_.triangle, words_.equation), packed_bits<DepthEquationPacket>(widths));
     randomise(packet.last(words_.state), packed_bits<DrawStatePacket>(widths));
   }
@@ -47,6 +52,8 @@ class TriangleStimulus : public Stimulus {
   std::uint64_t blocks_ = 0;  ///< that the triangles taken so far have given
 
  private:
+  std::int64_t signed_bits(int bits) { return static_cast<std::int64_t>(payload_.bits()) >> (64 - bits); }
+
   void randomise(std::span<std::uint32_t> words, int bits) {
     for (std::uint32_t& word : words) {
       word = static_cast<std::uint32_t>(payload_.bits());

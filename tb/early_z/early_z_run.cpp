@@ -42,6 +42,8 @@ class Run {
         coverage_(coverage),
         fields_(field_slots<TestedBeat>(shape.widths)),
         scoreboard_(fields_),
+        update_fields_(field_slots<HiZUpdatePacket>(shape.widths)),
+        updates_(update_fields_),
         idle_(options.idle, 0, options.seed ^ kIdleSeed),
         stall_(options.stall, 0, options.seed ^ kStallSeed),
         slow_(options.memory, 0, options.seed ^ kMemorySeed) {
@@ -97,6 +99,7 @@ class Run {
     log_ = {};
     log_.commands.resize(workload_.commands.size());
     scoreboard_.clear();
+    updates_.clear();
     output_law_.clear();
     read_law_.clear();
     write_law_.clear();
@@ -113,6 +116,9 @@ class Run {
     }
     if (!failure_ && cut == 0) {
       failure_ = scoreboard_.finish(cycle_);
+      if (!failure_) {
+        failure_ = updates_.finish(cycle_);
+      }
     }
     log_.cycles = cycle_;
     cycles_ += cycle_;
@@ -132,6 +138,7 @@ class Run {
       valid = inject();
     }
     check(valid);
+    update();
     requests();
     writes();
     accept();
@@ -226,6 +233,9 @@ class Run {
         scoreboard_.expect(tested);
         outstanding_.push_back(command_);
       }
+      if (shape_.hi_z) {
+        updates_.expect(command.update);
+      }
     }
     if (++beat_ == command.beats.size()) {
       next_command(command);
@@ -263,6 +273,19 @@ class Run {
       ++beats_;
       idle_cycles_ = 0;
     }
+  }
+
+  /// What hi_z is told. A burst is known before its update, which comes after its test.
+  void update() {
+    if (!out_.update_valid) {
+      return;
+    }
+    const bool here = log_.updates.size() == options_.fault_packet;
+    if (here && options_.fault == ZFault::kFlipUpdate) {
+      out_.update[0] ^= 1;
+    }
+    log_.updates.push_back(cycle_ + (here && options_.fault == ZFault::kLateUpdate ? 1 : 0));
+    fail(updates_.receive(cycle_, out_.update));
   }
 
   void memory_data() {
@@ -411,6 +434,8 @@ class Run {
       case ZFault::kFlipFill:
       case ZFault::kLoseFill:
       case ZFault::kFlipWrite:
+      case ZFault::kFlipUpdate:
+      case ZFault::kLateUpdate:
       case ZFault::kGap:
         break;
     }
@@ -431,6 +456,8 @@ class Run {
   ZCoverage& coverage_;
   std::vector<FieldSlot> fields_;
   Scoreboard scoreboard_;
+  std::vector<FieldSlot> update_fields_;
+  Scoreboard updates_;  ///< for hi_z
   HandshakeMonitor output_law_{"output"};
   HandshakeMonitor read_law_{"requests"};
   HandshakeMonitor write_law_{"writes"};
@@ -470,7 +497,7 @@ class Run {
 }  // namespace
 
 std::optional<ZFault> z_fault_by_name(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, ZFault>, 11> kNames = {
+  static constexpr std::array<std::pair<const char*, ZFault>, 13> kNames = {
       {{"none", ZFault::kNone},
        {"flip-depth", ZFault::kFlipDepth},
        {"flip-passed", ZFault::kFlipPassed},
@@ -481,6 +508,8 @@ std::optional<ZFault> z_fault_by_name(const std::string& name) {
        {"lose-fill", ZFault::kLoseFill},
        {"flip-write", ZFault::kFlipWrite},
        {"hold-request", ZFault::kHoldRequest},
+       {"flip-update", ZFault::kFlipUpdate},
+       {"late-update", ZFault::kLateUpdate},
        {"gap", ZFault::kGap}}};
   const auto* const known = std::ranges::find(kNames, name, &std::pair<const char*, ZFault>::first);
   return known == kNames.end() ? std::nullopt : std::optional(known->second);

@@ -25,6 +25,8 @@ enum class ZFault : std::uint8_t {
   kLoseFill,       ///< no data from memory any more, from a beat on
   kFlipWrite,      ///< a bit of the data written to memory, from a beat on
   kHoldRequest,    ///< memory takes a request one cycle late
+  kFlipUpdate,     ///< a bit of an update for hi_z
+  kLateUpdate,     ///< an update one cycle late
   kGap,            ///< the source leaves a gap in a burst: for the assertions of the RTL
 };
 

@@ -26,6 +26,7 @@ struct EarlyZShape {
   int clear_tiles = 64;
   int memory_tiles = 1024;
   int interpolator_number = 1;
+  bool hi_z = false;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
@@ -70,6 +71,8 @@ struct EarlyZOutputs {
   bool idle = false;
   bool clear_done = false;
   bool flush_done = false;
+  bool update_valid = false;
+  std::vector<std::uint32_t> update;
 };
 
 class EarlyZDut {

@@ -49,6 +49,8 @@ class VerilatedEarlyZ final : public EarlyZDut {
     out.idle = m.idle_o != 0;
     out.clear_done = m.clear_done_o != 0;
     out.flush_done = m.flush_done_o != 0;
+    out.update_valid = m.update_valid_o != 0;
+    get_port(m.update_o, out.update);
   }
   void clock_edge() override { model_.clock_edge(); }
   [[nodiscard]] bool assertion_failed() const override { return model_.assertion_failed(); }
@@ -64,7 +66,7 @@ template <class Model>
 EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
                       int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
-                      int interpolator) {
+                      int interpolator, int hi_z) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
             .TileSize = tile_size,
@@ -81,7 +83,8 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
            write_bytes,
            clear_tiles,
            memory_tiles,
-           interpolator},
+           interpolator,
+           hi_z != 0},
           [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
             return std::make_unique<VerilatedEarlyZ<Model>>(seed);
           }};

@@ -136,7 +136,8 @@ SetupTriangle random_triangle(const Widths& widths, DepthFormat format, DepthInt
                          .bounds = {0, 0, width - 1, height - 1},
                          .depth_format = format,
                          .limits = random_limits(format, random),
-                         .interpolator = interpolator};
+                         .interpolator = interpolator,
+                         .hi_z = true};
   SetupTriangle triangle;
   while (setup(random_screen_triangle(widths, format, width, height, random), state, triangle) !=
          SetupVerdict::kDrawn) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <optional>
 
+#include "halfspace/units/hi_z.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_beats.hpp"
 #include "halfspace/units/tile_mask.hpp"
@@ -241,6 +242,17 @@ class Maker {
         }
       }
     }
+    const HiZUpdate update = hi_z_update<TileSize>(stored, command.touched, parts());
+    HiZUpdatePacket told;
+    for (std::size_t part = 0; part < update.bounds.size(); ++part) {
+      if ((update.touched >> part & 1) != 0) {
+        told.touched[part] = 1;
+        told.least[part] = update.bounds[part].least;
+        told.most[part] = update.bounds[part].most;
+      }
+    }
+    command.update.resize(words_for(packed_bits<HiZUpdatePacket>(shape_.widths)));
+    pack(told, shape_.widths, command.update);
     const auto slot = static_cast<std::uint8_t>(command.triangle);
     QuadBurst in_slot = burst;
     in_slot.coverage.slot = slot;

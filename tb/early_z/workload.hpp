@@ -28,6 +28,7 @@ struct Command {
   std::uint8_t touched = 0;
   std::vector<std::vector<std::uint32_t>> beats;   ///< as they come
   std::vector<std::vector<std::uint32_t>> tested;  ///< as they must leave
+  std::vector<std::uint32_t> update;               ///< what hi_z must be told
   // A clear, in tiles.
   std::uint32_t first = 0;
   std::uint32_t last = 0;

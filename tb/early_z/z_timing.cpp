@@ -146,6 +146,9 @@ class Contract {
     const auto beats = static_cast<Cycle>(halfspace::beats(command.quads, shape_.widths.TestWidth));
     test_next_ = b + beats;
     test_last_.push_back(b + beats - 1);
+    if (shape_.hi_z) {
+      update(k, b + beats - 1 + kTestToUpdate, latest(terms).name);
+    }
     for (const ZMiss& miss : command.misses.parts()) {
       if (miss.fetch) {
         swaps_.push_back(b);
@@ -176,6 +179,15 @@ class Contract {
       sink_next_ = seen.taken[i] + 1;
     }
     sink_last_.push_back(sink_next_ - 1);
+  }
+
+  void update(std::size_t k, Cycle wanted, const char* reason) {
+    if (k < log_.updates.size()) {
+      expect("update", k, wanted, log_.updates[k], reason);
+    } else if (!failure_ && wanted < log_.cycles) {
+      failure_ = {FailureKind::kTiming, wanted,
+                  fmt::format("update of burst {} should come in cycle {} ({})", k, wanted, reason)};
+    }
   }
 
   /// A line enters the write buffer in cycle `from`.

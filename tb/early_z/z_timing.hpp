@@ -15,6 +15,7 @@ namespace halfspace::tb {
 
 inline constexpr std::uint64_t kLookupToTest = 17;  ///< f to b at least
 inline constexpr std::uint64_t kTestToSink = 2;     ///< b to the first beat at the sink
+inline constexpr std::uint64_t kTestToUpdate = 4;   ///< test of the last beat to the update for hi_z
 
 /// What happened with a command, up to where the run ended.
 struct CommandLog {
@@ -43,6 +44,7 @@ struct RunLog {
   std::vector<CommandLog> commands;
   std::vector<RequestLog> requests;
   std::vector<WriteLog> writes;
+  std::vector<std::uint64_t> updates;  ///< cycles of those for hi_z
   std::uint64_t cycles = 0;
 };
 

@@ -37,6 +37,10 @@ std::optional<Failure> BurstTiming::cycle(const UnitPins& pins) {
   if (std::optional<Failure> failure = compare(pins, free && credits_ > 0, visible)) {
     return failure;
   }
+  if (std::optional<Failure> failure = compare_job(pins)) {
+    return failure;
+  }
+  taken_ = taken_burst_ = false;
   if (pins.in_valid && free && credits_ == 0) {
     coverage_.no_credit(quads_of(unpack<Coverage>(pins.input, widths_), widths_).empty());
   }
@@ -85,10 +89,23 @@ std::optional<Failure> BurstTiming::compare(const UnitPins& pins, bool ready, bo
                              visible ? "should be valid since" : "valid before", since)};
 }
 
+std::optional<Failure> BurstTiming::compare_job(const UnitPins& pins) const {
+  const bool taken = pins.side[0] != 0;
+  const bool burst = pins.side[1] != 0;
+  if (taken == taken_ && burst == taken_burst_) {
+    return std::nullopt;
+  }
+  return Failure{FailureKind::kTiming, pins.cycle,
+                 fmt::format("job taken is {:d} and its burst {:d}, they should be {:d} and {:d}", taken,
+                             burst, taken_, taken_burst_)};
+}
+
 void BurstTiming::take(const UnitPins& pins, bool returned) {
   const std::vector<int> quads = quads_of(unpack<Coverage>(pins.input, widths_), widths_);
   const int count = beats(static_cast<int>(quads.size()), widths_.QuadWidth);
   coverage_.taken(quads, capacity_ - credits_, pins.cycle == free_from_, returned);
+  taken_ = true;
+  taken_burst_ = count > 0;
   free_from_ = pins.cycle + static_cast<std::uint64_t>(std::max(1, count));
   if (count > 0) {
     --credits_;
@@ -109,6 +126,7 @@ void BurstTiming::clear() {
   credits_ = capacity_;
   free_from_ = 0;
   made_until_ = 0;
+  taken_ = taken_burst_ = false;
   after_reset_ = true;
 }
 

@@ -3,6 +3,7 @@
 ///     g(n)       = max(arrive(n), g(n-1) + max(1, beats(n-1)), leave(k - capacity) + 1)
 ///     visible(i) = g(n) + 2 + i of beat i, after the beats before it have left
 ///
+/// and the job is told to hi_z in g(n) + 1,
 /// where leave() is the cycle in which the last beat of a burst leaves.
 #pragma once
 
@@ -36,6 +37,7 @@ class BurstTiming final : public UnitTiming {
   };
 
   [[nodiscard]] std::optional<Failure> compare(const UnitPins& pins, bool ready, bool visible) const;
+  [[nodiscard]] std::optional<Failure> compare_job(const UnitPins& pins) const;
   void take(const UnitPins& pins, bool returned);
 
   Widths widths_;
@@ -46,6 +48,8 @@ class BurstTiming final : public UnitTiming {
   bool was_reset_ = false;        ///< at least once
   std::uint64_t free_from_ = 0;   ///< first cycle in which a coverage may be taken but for credits
   std::uint64_t made_until_ = 0;  ///< cycle in which the last beat of the last burst is made
+  bool taken_ = false;            ///< a coverage, in the cycle before
+  bool taken_burst_ = false;      ///< with a quad
   std::uint64_t now_ = 0;         ///< the cycle after the last one seen
   std::deque<Burst> bursts_;
   std::uint64_t packets_ = 0;  ///< beats that have left

@@ -1,7 +1,9 @@
 /// Names of quad_generator's pins, and what the verilated classes make of them.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/verilated_dut.hpp"
 #include "models.hpp"
@@ -15,6 +17,11 @@ struct QuadGeneratorPins {
   static auto output_valid(auto& model) { return model.beat_valid_o; }
   static auto& output_payload(auto& model) { return model.beat_o; }
   static auto& output_ready(auto& model) { return model.beat_ready_i; }
+  /// For hi_z: taken, burst.
+  static void side_outputs(auto& model, std::vector<std::uint32_t>& words) {
+    words.push_back(model.job_taken_o);
+    words.push_back(model.job_burst_o);
+  }
 };
 
 template <class Model>

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -12,6 +14,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
@@ -49,6 +52,21 @@ struct Totals {
   double seconds = 0;                                  ///< in the verilated pipeline and its driver
   std::set<std::pair<std::size_t, std::size_t>> seen;  ///< stage and reason to wait
 };
+
+/// What became of a tile is told by block_walker where it takes the triangle, and by tile_walker where hi_z
+/// has decided the block, which is later in the RTL: the order of these events means nothing there.
+void sort_decisions(Events& events) {
+  using Decision = std::array<std::uint64_t, 6>;
+  std::vector<Decision> sorted(events.decisions.size() / Decision{}.size());
+  for (std::size_t i = 0; i < events.decisions.size(); ++i) {
+    sorted[i / Decision{}.size()][i % Decision{}.size()] = events.decisions[i];
+  }
+  std::ranges::sort(sorted);
+  events.decisions.clear();
+  for (const Decision& decision : sorted) {
+    events.decisions.insert(events.decisions.end(), decision.begin(), decision.end());
+  }
+}
 
 /// A difference, in words.
 class Difference : public std::runtime_error {
@@ -165,6 +183,10 @@ class Bench {
     }
     Events model_events;
     const TimedResult model = run_recurrence(frame, config, engine(model_events));
+    if (config.hi_z.enabled) {
+      sort_decisions(events);
+      sort_decisions(model_events);
+    }
     const TimedResult& run = verilated.timed;
     const std::string text = difference(run.times, model.times) + difference(run.cycles, model.cycles) +
                              difference(run.frame, model.frame) + difference(events, model_events) +
@@ -209,7 +231,9 @@ class Bench {
     const bool divider = stage == Stage::kSetup && reason == stall::kSetupDivider;
     const bool request =
         stage == Stage::kZLookup && reason == stall::kLookupRequest;  // of one part before the last
-    return !(divider && config_.setup.interval == 1) && !(request && config_.z_cache.parts == 1);
+    const bool hi_z = stage == Stage::kHiZ && reason != stall::kNoInput;
+    return !(divider && config_.setup.interval == 1) && !(request && config_.z_cache.parts == 1) &&
+           !(hi_z && !config_.hi_z.enabled);
   }
 
   void print() const {

@@ -23,6 +23,16 @@ bind raster_pipeline handshake_checker #(
 
 bind raster_pipeline handshake_checker #(
   .Width ($bits(raster_pkg::block_job_t))
+) u_walked_law (
+  .clk_i     (clk_i),
+  .rst_ni    (rst_ni),
+  .valid_i   (walked_valid),
+  .ready_i   (walked_ready),
+  .payload_i (walked_job)
+);
+
+bind raster_pipeline handshake_checker #(
+  .Width ($bits(raster_pkg::block_job_t))
 ) u_block_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),

@@ -6,6 +6,7 @@ module raster_pipeline_probe
   input logic            decide_i,
   input logic            accept_i,
   input logic            block_i,
+  input logic            hi_z_i,
   input logic            block_done_i,
   input logic            emit_i,
   input logic            job_i,
@@ -19,6 +20,7 @@ module raster_pipeline_probe
   input setup_triangle_t triangle_i,
   input depth_equation_t equation_i,
   input draw_state_t     state_i,
+  input block_job_t      walked_job_i,
   input block_job_t      block_job_i,
   input tile_job_t       tile_job_i,
   input coverage_t       tile_coverage_i,
@@ -32,6 +34,7 @@ module raster_pipeline_probe
     events[EventDecide] = decide_i;
     events[EventAccept] = accept_i;
     events[EventBlock] = block_i;
+    events[EventHiZ] = hi_z_i;
     events[EventBlockDone] = block_done_i;
     events[EventEmit] = emit_i;
     events[EventJob] = job_i;
@@ -47,6 +50,7 @@ module raster_pipeline_probe
   logic [$bits(setup_triangle_t)-1:0] triangle  /*verilator public_flat_rd*/;
   logic [$bits(depth_equation_t)-1:0] equation  /*verilator public_flat_rd*/;
   logic [$bits(draw_state_t)-1:0]     state     /*verilator public_flat_rd*/;
+  logic [$bits(block_job_t)-1:0]      walked_job /*verilator public_flat_rd*/;
   logic [$bits(block_job_t)-1:0]      block_job /*verilator public_flat_rd*/;
   logic [$bits(tile_job_t)-1:0]       tile_job  /*verilator public_flat_rd*/;
   logic [$bits(coverage_t)-1:0]       coverage  /*verilator public_flat_rd*/;
@@ -54,6 +58,7 @@ module raster_pipeline_probe
   assign triangle  = triangle_i;
   assign equation  = equation_i;
   assign state     = state_i;
+  assign walked_job = walked_job_i;
   assign block_job = block_job_i;
   assign tile_job  = tile_job_i;
   assign coverage  = tile_coverage_i;
@@ -65,6 +70,7 @@ bind raster_pipeline raster_pipeline_probe u_probe (
   .decide_i        (setup_activity == raster_pkg::SetupBusy),
   .accept_i        (triangle_valid & triangle_ready),
   .block_i         (u_block_walker.emit),
+  .hi_z_i          (HiZ & walked_valid & walked_ready),
   .block_done_i    (block_valid & block_ready),
   .emit_i          (u_tile_walker.emit),
   .job_i           (job_valid & job_ready),
@@ -78,6 +84,7 @@ bind raster_pipeline raster_pipeline_probe u_probe (
   .triangle_i      (triangle),
   .equation_i      (equation),
   .state_i         (state),
+  .walked_job_i    (walked_job),
   .block_job_i     (block_job),
   .tile_job_i      (job),
   .tile_coverage_i (coverage),

@@ -38,6 +38,8 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
     m.clear_valid_i = in.clear_valid;
     set_number(m.clear_first_i, in.clear_first);
     set_number(m.clear_last_i, in.clear_last);
+    set_number(m.clear_first_block_i, in.clear_first_block);
+    set_number(m.clear_last_block_i, in.clear_last_block);
     m.flush_i = in.flush;
     set_number(m.counter_select_i, in.counter_select);
     model_.settle();
@@ -67,6 +69,9 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
   }
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override {
     return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__state);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> walked_job() const override {
+    return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__walked_job);
   }
   [[nodiscard]] std::span<const std::uint32_t> block_job() const override {
     return words_of(model_->rootp->raster_pipeline__DOT__u_probe__DOT__block_job);

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <utility>
 
 #include "halfspace/timing/contract.hpp"
+#include "halfspace/units/hi_z_plane.hpp"
 
 namespace halfspace::tb {
 namespace {
@@ -35,6 +37,10 @@ std::string edge_bin(std::size_t side, bool flat_top, bool bottom_left_rule) {
 }
 std::string depth_bin(std::size_t depths, std::size_t format) {
   return fmt::format("depths {} format {}", kDepths[depths], kFormatNames[format]);
+}
+
+std::string plane_bin(const char* what, std::size_t format) {
+  return fmt::format("plane {} format {}", what, kFormatNames[format]);
 }
 
 std::size_t sign_of(std::int64_t value) { return value < 0 ? 0 : value == 0 ? 1 : 2; }
@@ -77,6 +83,11 @@ std::size_t depth_index(const std::array<std::int64_t, 3>& z) {
 SetupCoverage::SetupCoverage(const SetupModel& model) : interval_(model.interval), queue_(model.queue) {
   const std::array<std::size_t, 4> formats = {0, 1, 2, 4};
   for (const std::size_t format : formats) {
+    if (model.has_planes() && format != 0) {
+      for (const char* const what : {"known", "unknown", "largest fall", "short of the largest rise"}) {
+        counts_[plane_bin(what, format)];
+      }
+    }
     for (std::size_t verdict = 0; verdict < 7; ++verdict) {
       counts_[verdict_bin(verdict, format)];
     }
@@ -135,6 +146,17 @@ void SetupCoverage::triangle(const SetupJob& job, const SetupResult& result, con
   const int width = std::bit_width(static_cast<std::uint64_t>(area2 < 0 ? -area2 : area2));
   hit(size_bin(span, sign_of(width - 32), format));
   hit(depth_bin(depth_index(job.triangle.z), format));
+  if (format != 0) {
+    constexpr std::int64_t kMost = std::int64_t{1} << (kHiZMostStep + kHiZFraction);
+    const HiZPlane& plane = result.triangle.plane;
+    hit(plane_bin(plane.known ? "known" : "unknown", format));
+    if (std::min(plane.dx, plane.dy) == -kMost) {
+      hit(plane_bin("largest fall", format));
+    }
+    if (std::max(plane.dx, plane.dy) >= kMost - (std::int64_t{1} << (kHiZFraction + 2))) {
+      hit(plane_bin("short of the largest rise", format));
+    }
+  }
 }
 
 std::map<std::string, std::uint64_t> SetupCoverage::bins() const {

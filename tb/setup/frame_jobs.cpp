@@ -16,6 +16,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   FrameResult result;
   result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);
+  const std::vector<HiZSurface> block_places = place_blocks(result.surfaces, config);
   std::deque<DrawContext> draws;
   FrameSource source(frame, config, nullptr, result.surfaces, result, draws);
   std::vector<SetupJob> jobs;
@@ -27,9 +28,10 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
       }
       const DrawContext& draw = *item->draw;
       const ZSurface place = draw.surface == kNoSurface ? ZSurface{} : places[draw.surface];
+      const HiZSurface blocks = draw.surface == kNoSurface ? HiZSurface{} : block_places[draw.surface];
       for (const ScreenTriangle& triangle : item->triangles) {
         const DrawStatePacket state =
-            draw_state_packet(setup_state(draw.setup, triangle), draw.early_z, place, 0);
+            draw_state_packet(setup_state(draw.setup, triangle), draw.early_z, place, blocks, 0);
         jobs.push_back({to_packet(triangle), state});
       }
     }

@@ -86,8 +86,9 @@ SetupResult reference(const SetupJob& job, const SetupModel& model) {
     triangle.v[i] = {job.triangle.x[i], job.triangle.y[i], job.triangle.z[i]};
   }
   SetupResult result;
-  result.verdict = setup(triangle, setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator()),
-                         result.triangle);
+  SetupState state = setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator());
+  state.hi_z = model.hi_z;
+  result.verdict = setup(triangle, state, result.triangle);
   return result;
 }
 

@@ -18,14 +18,18 @@ struct SetupModel {
   int interval = 1;
   int block_size = 32;
   int interpolator_number = 1;
+  bool hi_z = false;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
   }
+  /// Whether planes for hi_z are made.
+  [[nodiscard]] bool has_planes() const { return hi_z && interpolator() == DepthInterpolator::kPlane; }
   /// Cycles from the decision to the output.
   [[nodiscard]] int divide_latency() const {
     Config config;
     config.depth.interpolator = interpolator();
+    config.hi_z.enabled = hi_z;
     return latency(Link::kSetup, config);
   }
   [[nodiscard]] Widths widths() const {

@@ -7,6 +7,7 @@ module setup_link
   parameter int unsigned FifoDepth = 24,
   parameter int unsigned Interval = 1,
   parameter int unsigned Interpolator = 1,
+  parameter bit HiZ = 1'b0,
   // Bits of both links.
   localparam int unsigned InBits = $bits(screen_triangle_t) + $bits(draw_state_t),
   localparam int unsigned OutBits =
@@ -39,7 +40,8 @@ module setup_link
     .QueueDepth   (QueueDepth),
     .FifoDepth    (FifoDepth),
     .Interval     (Interval),
-    .Interpolator (Interpolator)
+    .Interpolator (Interpolator),
+    .HiZ          (HiZ)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),

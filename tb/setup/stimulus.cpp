@@ -197,6 +197,44 @@ void add_far_depths(std::vector<SetupJob>& jobs, const Band& band) {
   }
 }
 
+/// Gradients at the largest that hi_z knows, 2^25 units of a word of 32 bits for a pixel, and a little more
+/// and less; in x and in y, up and down.
+void add_steep(std::vector<SetupJob>& jobs, const Band& band) {
+  constexpr std::int64_t kFar = 128;  // pixels to the vertex that sets the scale, where depth changes slowly
+  struct Scale {
+    std::uint8_t format;
+    std::int64_t top;   ///< depth there
+    std::int64_t step;  ///< 2^25 units, as a depth
+  };
+  for (const Scale& scale : {Scale{1, 1 << 30, 1 << 25}, Scale{2, 1 << 30, 1 << 25},  // short words
+                             Scale{2, std::int64_t{1} << 31, 1 << 26},                // beyond
+                             Scale{2, std::int64_t{1} << 46, std::int64_t{1} << 41},  // far beyond
+                             Scale{4, 0x3F800000, 0x3D000000}}) {                     // 1 and 2^-5
+    for (const std::int64_t more : {-2, -1, 0, 1, 2}) {
+      for (const std::int64_t times : {1, 2, 4, 1 << 4}) {
+        for (unsigned flags = 0; flags < 4; ++flags) {
+          const std::int64_t step =
+              scale.format == 4 ? scale.step + ((times - 1) << 23) + more : scale.step * times + more;
+          const std::int64_t length = (flags & 1) != 0 ? times : 1;
+          SetupJob job;
+          job.state = open_state(scale.format);
+          set_vertices(job, {band.centre(40, 40), band.centre(40 + length, 40), band.centre(40, 40 + kFar)});
+          job.triangle.z = {0, step, scale.top};
+          if ((flags & 2) != 0) {
+            std::swap(job.triangle.z[0], job.triangle.z[1]);
+          }
+          if (step > scale.top) {
+            continue;
+          }
+          jobs.push_back(job);
+          std::swap(job.triangle.x, job.triangle.y);
+          jobs.push_back(job);
+        }
+      }
+    }
+  }
+}
+
 /// All bits of the state that only pass through, on a drawn triangle.
 void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& widths) {
   const auto add = [&](auto set) {
@@ -209,9 +247,13 @@ void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& wid
   for (int bit = 0; bit < 32; ++bit) {
     add([&](DrawStatePacket& state) { state.clear_code = 1u << bit; });
     add([&](DrawStatePacket& state) { state.first_tile = 1u << bit; });
+    add([&](DrawStatePacket& state) { state.first_block = 1u << bit; });
   }
   for (int bit = 0; bit < widths.TileCoordBits; ++bit) {
     add([&](DrawStatePacket& state) { state.tiles_x = static_cast<std::uint16_t>(1 << bit); });
+  }
+  for (int bit = 0; bit < widths.BlockCoordBits; ++bit) {
+    add([&](DrawStatePacket& state) { state.blocks_x = static_cast<std::uint16_t>(1 << bit); });
   }
   for (unsigned flags = 0; flags < 32; ++flags) {
     add([&](DrawStatePacket& state) {
@@ -263,6 +305,8 @@ class Generator {
     state_.func = random_.below(8) & 7;
     state_.clear_code = static_cast<std::uint32_t>(random_.bits());
     state_.tiles_x = static_cast<std::uint16_t>(random_.below(std::uint64_t{1} << widths_.TileCoordBits));
+    state_.first_block = static_cast<std::uint32_t>(random_.bits());
+    state_.blocks_x = static_cast<std::uint16_t>(random_.below(std::uint64_t{1} << widths_.BlockCoordBits));
     // Around the point that triangles of this draw are near to, or all of the screen.
     centre_ = {random_.range(0, kScreen), random_.range(0, kScreen)};
     if (one_in(3)) {
@@ -477,6 +521,7 @@ std::vector<SetupJob> directed_jobs(const SetupModel& model) {
   add_bounds(jobs, band, model);
   add_depths(jobs, band);
   add_far_depths(jobs, band);
+  add_steep(jobs, band);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     number(jobs[i], i);
   }

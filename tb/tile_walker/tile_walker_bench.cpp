@@ -36,8 +36,9 @@ std::uint64_t modelled_cycles(const std::vector<BlockJob>& blocks, const TileWal
   RecurrenceCore<OneMachine, NoStalls, CycleProbe<true>> core(memory, NoStalls{}, probe);
   core.drawn();
   for (const BlockJob& block : blocks) {
-    core.block(0);
-    for (std::size_t left = tile_jobs(block, parameters).size(); left > 0; --left) {
+    const std::size_t jobs = tile_jobs(block, parameters).size();
+    core.block(0, static_cast<int>(jobs));
+    for (std::size_t left = jobs; left > 0; --left) {
       core.job({});
     }
     core.block_done();

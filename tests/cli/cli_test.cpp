@@ -205,10 +205,10 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   for (const char* stall : {"sink", "sink:10", "sink:10:4:1", "sink:101:4", "sink:-1:4", "sink:10:0",
                             "sink:10:65536", "drain:10:4", "sink:10:", ":10:4"}) {
     CAPTURE(stall);
-    check_error(
-        place.run(timed + " --stall " + stall),
-        {"--stall", stall, "source, setup, block_walker, tile_walker, edge_evaluator, quad_generator, sink",
-         "0 to 100", "1 to 65535"});
+    check_error(place.run(timed + " --stall " + stall),
+                {"--stall", stall,
+                 "source, setup, block_walker, hi_z, tile_walker, edge_evaluator, quad_generator, sink",
+                 "0 to 100", "1 to 65535"});
   }
   check_error(place.run(timed + " --stall sink:10:4 --stall sink:10:5"),
               {"--stall", "sink:10:5", "given before"});

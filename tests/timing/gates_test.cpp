@@ -39,7 +39,7 @@ class Rig {
   void drawn() { core_.drawn(); }
   void walked(std::uint32_t empty_after) { core_.walked(empty_after); }
   void block(std::uint32_t empty, const std::vector<int>& quads) {
-    core_.block(empty);
+    core_.block(empty, static_cast<int>(quads.size()));
     for (const int q : quads) {
       core_.job({.quads = q});
     }
@@ -48,7 +48,7 @@ class Rig {
   /// A triangle with one burst that misses.
   void miss(int quads, const std::vector<ZMiss>& misses) {
     core_.drawn();
-    core_.block(0);
+    core_.block(0, 1);
     core_.job({.quads = quads, .misses = misses});
     core_.block_done();
     core_.walked(0);

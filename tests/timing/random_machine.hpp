@@ -37,6 +37,10 @@ inline Config random_config(Random& random) {
   } while (config.block_walker.block_size > 64);
   config.block_walker.trivial_reject = random.between(0, 3) != 0;
   config.tile_walker.trivial_accept = random.between(0, 3) != 0;
+  config.hi_z.enabled = random.between(0, 2) == 0;
+  config.hi_z.bits = pick(random, {4, 8, 12, 32});
+  config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
+  config.hi_z.fifo = mostly_small(random, 2, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
   config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
 
@@ -60,6 +64,8 @@ inline Config random_config(Random& random) {
   do {
     config.z_cache.parts = pick(random, {1, 2, 4});
   } while (config.z_cache.parts > config.tile_walker.tile_size / 2);
+  const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
+  config.hi_z.enabled &= row_tiles * row_tiles * config.z_cache.parts <= 64;
   config.z_cache.ways = pick(random, {1, 1, 2, 4, 8, 16});
   do {
     config.z_cache.lines = pick(random, {1, 2, 4, 4, 8, 8, 16, 32, 64, 128, 512});
@@ -83,6 +89,9 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.block_walker.block_size = recorded.block_walker.block_size;
     config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
     config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
+    config.hi_z.enabled = recorded.hi_z.enabled;
+    config.hi_z.bits = recorded.hi_z.bits;
+    config.hi_z.lag = recorded.hi_z.lag;
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z = recorded.late_z;
     config.z_cache.fast_clear = recorded.z_cache.fast_clear;

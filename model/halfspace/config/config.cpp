@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/units/hi_z_bounds.hpp"
 
 namespace halfspace {
 namespace {
@@ -237,6 +238,10 @@ void validate(const Config& config) {
   const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
   demand(row_tiles >= 2 && row_tiles <= 8, "block_walker.block_size", config.block_walker.block_size,
          fmt::format("2, 4 or 8 times 'tile_walker.tile_size' ({})", config.tile_walker.tile_size));
+  const int bounds = row_tiles * row_tiles * config.z_cache.parts;
+  demand(!config.hi_z.enabled || bounds <= static_cast<int>(kMostHiZEntries), "hi_z.enabled", 1,
+         fmt::format("false where a block has more than {} parts of tiles (these have {})", kMostHiZEntries,
+                     bounds));
   const int quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
   demand(config.quad_generator.quads_per_cycle <= quads, "quad_generator.quads_per_cycle",
          config.quad_generator.quads_per_cycle, fmt::format("at most the quads of a tile ({})", quads));

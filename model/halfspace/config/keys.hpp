@@ -49,6 +49,16 @@
     MODULE(block_walker., fifo, int, 4, range(2, 8), "blocks", time,                                         \
         "output FIFO of the block walker", BlockFifo)                                                        \
   END(block_walker)                                                                                          \
+  BEGIN(hi_z)                                                                                                \
+    MODULE(hi_z., enabled, bool, false, boolean(), "", function,                                             \
+        "reject the tiles of a block in which no sample can pass the depth test", HiZ)                       \
+    MODULE(hi_z., bits, int, 8, range(4, 32), "bits", function,                                              \
+        "of a bound of depth; those of a block share a base and a shift", HiZBits)                           \
+    MODULE(hi_z., lag, int, 128, range(1, 1024), "tile jobs", function,                                      \
+        "a block sees what jobs have written that are at least so many older", HiZLag)                       \
+    MODULE(hi_z., fifo, int, 8, range(2, 16), "blocks", time,                                                \
+        "output FIFO of hi_z", HiZFifo)                                                                      \
+  END(hi_z)                                                                                                  \
   BEGIN(tile_walker)                                                                                         \
     PACKAGE(tile_walker., tile_size, int, 8, power_of_two(4, 16), "pixels", function,                        \
         "side of the tile that the edge evaluator takes in one step; a line of the z cache grows with it",   \

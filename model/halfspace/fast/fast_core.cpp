@@ -98,6 +98,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (reader != nullptr && reader->wants_tiles()) {
     return "a timeline";
   }
+  if (config.hi_z.enabled) {
+    return "hi_z.enabled = true";
+  }
   if (config.tile_walker.tile_size > 8) {
     return "tile_walker.tile_size = 16";
   }

@@ -70,7 +70,8 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
               intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, bottom_left_rule)),
           .depth_format = format,
           .limits = depth_limits(draw, format),
-          .interpolator = config.depth.interpolator};
+          .interpolator = config.depth.interpolator,
+          .hi_z = config.hi_z.enabled};
 }
 
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
@@ -91,22 +92,25 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
 }
 
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
-                                  std::uint32_t clear_code) {
+                                  const HiZSurface& blocks, std::uint32_t clear_code) {
   const auto flag = [](bool on) { return static_cast<std::uint8_t>(on ? 1 : 0); };
-  DrawStatePacket packet{.front_positive_area = flag(setup.front_positive_area),
-                         .cull_front = flag(setup.cull_front),
-                         .cull_back = flag(setup.cull_back),
-                         .bottom_left_rule = flag(setup.bottom_left_rule),
-                         .empty = flag(setup.bounds.empty()),
-                         .format = static_cast<std::uint8_t>(setup.depth_format),
-                         .least_code = setup.limits.least,
-                         .most_code = setup.limits.most,
-                         .test = flag(early_z.test),
-                         .write = flag(early_z.write),
-                         .func = static_cast<std::uint8_t>(early_z.func),
-                         .clear_code = clear_code,
-                         .first_tile = place.first_tile,
-                         .tiles_x = static_cast<std::uint16_t>(place.tiles_x == 0 ? 0 : place.tiles_x - 1)};
+  DrawStatePacket packet{
+      .front_positive_area = flag(setup.front_positive_area),
+      .cull_front = flag(setup.cull_front),
+      .cull_back = flag(setup.cull_back),
+      .bottom_left_rule = flag(setup.bottom_left_rule),
+      .empty = flag(setup.bounds.empty()),
+      .format = static_cast<std::uint8_t>(setup.depth_format),
+      .least_code = setup.limits.least,
+      .most_code = setup.limits.most,
+      .test = flag(early_z.test),
+      .write = flag(early_z.write),
+      .func = static_cast<std::uint8_t>(early_z.func),
+      .clear_code = clear_code,
+      .first_tile = place.first_tile,
+      .tiles_x = static_cast<std::uint16_t>(place.tiles_x == 0 ? 0 : place.tiles_x - 1),
+      .first_block = blocks.first_block,
+      .blocks_x = static_cast<std::uint16_t>(blocks.blocks_x == 0 ? 0 : blocks.blocks_x - 1)};
   if (!setup.bounds.empty()) {
     packet.x_first = static_cast<std::uint16_t>(setup.bounds.x_first);
     packet.x_last = static_cast<std::uint16_t>(setup.bounds.x_last);
@@ -137,7 +141,8 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
                     .bounds = rect,
                     .depth_format = format,
                     .limits = {.least = 0, .most = largest_code(format)},
-                    .interpolator = config.depth.interpolator},
+                    .interpolator = config.depth.interpolator,
+                    .hi_z = config.hi_z.enabled},
           .early_z = {.test = true,
                       .write = true,
                       .func = DepthFunc::kAlways,

@@ -33,10 +33,10 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
 /// The state of the draw for one triangle, with the bounds that the triangle itself has.
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle);
 
-/// All that travels with the triangles of a draw. `place` and `clear_code` are those of its depth surface, if
-/// it has one.
+/// All that travels with the triangles of a draw. `place`, `blocks` and `clear_code` are those of its depth
+/// surface, if it has one.
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
-                                  std::uint32_t clear_code);
+                                  const HiZSurface& blocks, std::uint32_t clear_code);
 
 /// True where the clear is done by the z cache: it covers a whole surface, and fast clear is on.
 bool clears_fast(const PixelRect& rect, const Surface& surface, const Config& config);

@@ -9,6 +9,7 @@
 #include "halfspace/machine/frame_source.hpp"
 #include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/hi_z.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
 #include "halfspace/machine/passage/sink.hpp"
@@ -72,6 +73,8 @@ class InOrderRun {
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
     z_cache_ = ZCache(shape, memory_lines(places_, shape));
+    blocks_ = place_blocks(result_.surfaces, config);
+    hi_z_ = make_hi_z(blocks_, config);
     if (reader != nullptr) {
       stream_.emplace(*reader);
       wants_tiles_ = reader->wants_tiles();
@@ -119,6 +122,9 @@ class InOrderRun {
   void fast_clear(const SourceItem& item) {
     clear_surface(result_.surfaces[item.surface], item.code);
     z_cache_.clear(places_[item.surface]);
+    if (config_.hi_z.enabled) {
+      hi_z_.clear(blocks_[item.surface], item.code);
+    }
     if (stream_) {
       stream_->begin_segment(StreamSegment::Kind::kFastClear, item.surface, false);
       stream_->end_segment(0);
@@ -142,7 +148,12 @@ class InOrderRun {
     }
   }
 
-  void block(const BlockJob& block, std::uint32_t empty_before) {
+  void block(BlockJob block, std::uint32_t empty_before) {
+    if (config_.hi_z.enabled) {
+      block.tiles =
+          passage::hi_z(hi_z_, block, triangle_.depth,
+                        draw_->surface == kNoSurface ? HiZSurface{} : blocks_[draw_->surface], *draw_);
+    }
     if (stream_) {
       if (stream_->full()) [[unlikely]] {
         give(true);
@@ -159,12 +170,26 @@ class InOrderRun {
     if (any(coverage.mask)) {
       quads = burst(passage::quad_generator<TileSize>(coverage, *draw_));
     }
+    if (config_.hi_z.enabled) {
+      retire(coverage);
+    }
     if (stream_) {
       stream_->job(quads);
       if (wants_tiles_) {
         stream_->tile({.x = std::uint32_t{job.tile_x} * TileSize, .y = std::uint32_t{job.tile_y} * TileSize});
       }
     }
+  }
+
+  /// Tells hi_z what is stored in the tile of a job.
+  void retire(const Coverage& coverage) {
+    HiZUpdate update;
+    if (touches_depth_ && any(coverage.mask)) {
+      const int parts = config_.z_cache.parts;
+      update = hi_z_update<TileSize>(surface_->codes.tile(coverage.tile_x, coverage.tile_y),
+                                     passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+    }
+    hi_z_.retire(update);
   }
 
   /// Returns the burst's quads.
@@ -244,6 +269,8 @@ class InOrderRun {
   WalkerConfig walk_;
   passage::BlockWalker walker_;
   ZCache z_cache_;
+  std::vector<HiZSurface> blocks_;  ///< by surface
+  HiZ hi_z_;
 
   std::optional<StreamWriter> stream_;  ///< where somebody reads
   bool wants_tiles_ = false;

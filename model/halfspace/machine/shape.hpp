@@ -22,6 +22,7 @@ namespace halfspace {
 #define HALFSPACE_STAGES(S)                                                                                    \
   S(Setup,         setup,          Triangle, "no_triangle", "divider", "no_credit")                            \
   S(BlockWalker,   block_walker,   Triangle, "no_triangle", "load", "no_credit")                               \
+  S(HiZ,           hi_z,           Block,    "no_block", "no_update", "no_credit")                              \
   S(TileWalker,    tile_walker,    Block,    "no_block", "no_credit")                                          \
   S(EdgeEvaluator, edge_evaluator, Job,      "no_tile", "no_credit")                                           \
   S(QuadGenerator, quad_generator, Job,      "no_coverage", "no_credit")                                       \
@@ -36,6 +37,7 @@ namespace halfspace {
   L(Setup,         setup,           setup.fifo,                                                                \
     config.depth.interpolator == DepthInterpolator::kPlane ? 35 : 18 /* a division */, StallPoint::kSetup)     \
   L(BlockWalker,   block_walker,    block_walker.fifo,    2,                     StallPoint::kBlockWalker)     \
+  L(HiZ,           hi_z,            hi_z.fifo,            6,                     StallPoint::kHiZ)             \
   L(TileWalker,    tile_walker,     tile_walker.fifo,     3,                     StallPoint::kTileWalker)      \
   L(EdgeEvaluator, edge_evaluator,  edge_evaluator.fifo,                                                       \
     config.edge_evaluator.pipe_stages + 1 /* and the output register */,         StallPoint::kEdgeEvaluator)   \
@@ -55,6 +57,7 @@ namespace halfspace {
   P(Source,        source)                                                                                   \
   P(Setup,         setup)                                                                                    \
   P(BlockWalker,   block_walker)                                                                             \
+  P(HiZ,           hi_z)                                                                                     \
   P(TileWalker,    tile_walker)                                                                              \
   P(EdgeEvaluator, edge_evaluator)                                                                           \
   P(QuadGenerator, quad_generator)                                                                           \
@@ -65,6 +68,7 @@ namespace halfspace {
   E(Decide,    "setup draws or drops a triangle")                                                            \
   E(Accept,    "block_walker takes a triangle")                                                              \
   E(Block,     "block_walker makes a block job")                                                             \
+  E(HiZ,       "hi_z takes a block")                                                                         \
   E(BlockDone, "tile_walker makes the last tile job of a block job")                                         \
   E(Emit,      "tile_walker makes a tile job")                                                               \
   E(Job,       "edge_evaluator takes a tile job")                                                            \
@@ -117,6 +121,8 @@ inline constexpr std::size_t kSetupDivider = stall_reason(Stage::kSetup, "divide
 inline constexpr std::size_t kSetupNoCredit = stall_reason(Stage::kSetup, "no_credit");
 inline constexpr std::size_t kBlockLoad = stall_reason(Stage::kBlockWalker, "load");
 inline constexpr std::size_t kBlockNoCredit = stall_reason(Stage::kBlockWalker, "no_credit");
+inline constexpr std::size_t kHiZNoUpdate = stall_reason(Stage::kHiZ, "no_update");
+inline constexpr std::size_t kHiZNoCredit = stall_reason(Stage::kHiZ, "no_credit");
 inline constexpr std::size_t kTileNoCredit = stall_reason(Stage::kTileWalker, "no_credit");
 inline constexpr std::size_t kEdgeNoCredit = stall_reason(Stage::kEdgeEvaluator, "no_credit");
 inline constexpr std::size_t kQuadNoCredit = stall_reason(Stage::kQuadGenerator, "no_credit");

@@ -78,6 +78,34 @@ std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const
   return place_surfaces(stream_surfaces(surfaces), config.tile_walker.tile_size, config.z_cache.parts);
 }
 
+HiZConfig hi_z_config(const Config& config) {
+  return {.enabled = config.hi_z.enabled,
+          .bits = config.hi_z.bits,
+          .lag = config.hi_z.lag,
+          .block_size = config.block_walker.block_size,
+          .tile_size = config.tile_walker.tile_size,
+          .parts = config.z_cache.parts};
+}
+
+std::vector<HiZSurface> place_blocks(const std::vector<Surface>& surfaces, const Config& config) {
+  std::vector<HiZSurface> places;
+  std::uint32_t first = 0;
+  const int size = config.block_walker.block_size;
+  const auto blocks = [size](int pixels) { return static_cast<std::uint32_t>((pixels + size - 1) / size); };
+  for (const Surface& surface : surfaces) {
+    const std::uint32_t blocks_x = blocks(surface.codes.width());
+    places.push_back(
+        {.first_block = first, .blocks_x = blocks_x, .blocks = blocks_x * blocks(surface.codes.height())});
+    first += places.back().blocks;
+  }
+  return places;
+}
+
+HiZ make_hi_z(const std::vector<HiZSurface>& surfaces, const Config& config) {
+  return HiZ(hi_z_config(config),
+             surfaces.empty() ? 0 : surfaces.back().first_block + surfaces.back().blocks);
+}
+
 std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape) {
   return surfaces.empty()
              ? 0

@@ -9,6 +9,7 @@
 #include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/machine/packet_stream.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/units/hi_z.hpp"
 #include "halfspace/units/z_line.hpp"
 
 namespace halfspace {
@@ -34,6 +35,14 @@ std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces)
 /// Where the tiles of each surface lie in memory; by surface number. `parts`: lines of a tile.
 std::vector<ZSurface> place_surfaces(const std::vector<StreamSurface>& surfaces, int tile_size, int parts);
 std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config);
+
+HiZConfig hi_z_config(const Config& config);
+
+/// Where the blocks of each surface are for hi_z; by surface number.
+std::vector<HiZSurface> place_blocks(const std::vector<Surface>& surfaces, const Config& config);
+
+/// hi_z as it is before the first command.
+HiZ make_hi_z(const std::vector<HiZSurface>& surfaces, const Config& config);
 
 /// Lines of memory that all surfaces take.
 std::uint32_t memory_lines(const std::vector<ZSurface>& surfaces, const ZCacheShape& shape);

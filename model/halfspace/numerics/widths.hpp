@@ -30,6 +30,8 @@ namespace halfspace {
   W(WordBits,        64,                                               "depth with the binary point behind the sign, on a scale of the triangle") \
   W(HalfGradientBits, 43,                                              "half of a gradient of depth: a word and 22 bits below it, together 86") \
   W(ExponentBits,    9,                                                "power of two above all depths of a triangle, signed") \
+  W(HiZWordBits,     50,                                               "depth as hi_z sees it: a word of 32 bits, 16 bits below it, and 2 above, signed") \
+  W(HiZStepBits,     42,                                               "its change for a pixel, signed")             \
   W(CodeBits,        32,                                               "a stored depth code of any format")           \
   W(ReciprocalBits,  32,                                               "(2^63 - 1) / (2A scaled to 32 bits)")         \
   W(ShiftBits,       6,                                                "E >> shift is on the scale of the 32-bit 2A, signed") \

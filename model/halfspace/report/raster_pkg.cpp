@@ -196,6 +196,7 @@ std::string raster_pkg() {
   text += packed_struct<TileJob>("tile_job_t", "tile_walker -> edge_evaluator");
   text += packed_struct<Coverage>("coverage_t", "edge_evaluator -> quad_generator");
   text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");
+  text += packed_struct<HiZUpdatePacket>("hi_z_update_t", "early_z -> hi_z: what is stored behind a burst");
   text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
   text +=
       "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to "

@@ -15,9 +15,14 @@ namespace halfspace {
 // Latencies that no key changes; the table of links has them all.
 inline constexpr int kSetupCullLatency = latency(Link::kSetupQueue, {});
 inline constexpr int kBlockLatency = latency(Link::kBlockWalker, {});
+inline constexpr int kHiZLatency = latency(Link::kHiZ, {});
 inline constexpr int kTileLatency = latency(Link::kTileWalker, {});
 inline constexpr int kQuadLatency = latency(Link::kQuadGenerator, {});
 inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
+
+/// From a coverage without a sample, and from the last beat of a burst at z_test, until hi_z can see it.
+inline constexpr int kHiZEmptyLatency = 2;
+inline constexpr int kHiZUpdateLatency = 5;
 
 /// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
 inline constexpr std::size_t kMostCredits = 64;

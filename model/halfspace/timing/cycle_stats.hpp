@@ -83,6 +83,7 @@ struct FrameCycles {
   T(decide, "setup: every triangle, dropped or drawn")       \
   T(accept, "block_walker: every triangle that is drawn")    \
   T(block,  "block_walker: every block job")                 \
+  T(hi_z,   "hi_z: every block job")                         \
   T(emit,   "tile_walker: every tile job")                   \
   T(e,      "edge_evaluator: every tile job")                \
   T(g,      "quad_generator: every coverage")                \

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "halfspace/units/hi_z_plane.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/square_edges.hpp"
 
@@ -33,7 +34,10 @@ void block_walker(const SetupTriangle& triangle, const WalkerConfig& config, std
   const int size = config.block_size;
   const int row_tiles = size / TileSize;
   const PixelRect& bounds = triangle.bounds;
-  BlockJob job{.slot = slot};
+  BlockJob job{.slot = slot,
+               .z_dx = triangle.plane.dx,
+               .z_dy = triangle.plane.dy,
+               .z_known = static_cast<std::uint8_t>(triangle.plane.known ? 1 : 0)};
   std::array<std::int64_t, 3> origin{};  // E at pixel (0, 0)
   for (std::size_t i = 0; i < 3; ++i) {
     job.a[i] = triangle.edge[i].a;
@@ -52,6 +56,7 @@ void block_walker(const SetupTriangle& triangle, const WalkerConfig& config, std
       job.block_x = static_cast<std::uint16_t>(x / size);
       job.block_y = static_cast<std::uint16_t>(y / size);
       job.e = screen.at(x, y);
+      job.z = hi_z_wrap(triangle.plane.z + triangle.plane.dx * x + triangle.plane.dy * y);
       job.x_first = static_cast<std::uint8_t>(inside.x_first);
       job.x_last = static_cast<std::uint8_t>(inside.x_last);
       job.y_first = static_cast<std::uint8_t>(inside.y_first);

@@ -29,6 +29,10 @@ namespace halfspace {
   C(blocks_empty,      "left without a tile: nothing leaves for them")       \
   C(tiles_rejected,    "tiles of the bounds outside one edge")
 
+#define HALFSPACE_HI_Z_COUNTERS(C)                                           \
+  C(blocks_rejected,   "no sample of them can pass: nothing leaves for them") \
+  C(tiles_rejected,    "no sample of them can pass")
+
 #define HALFSPACE_TILE_WALKER_COUNTERS(C)                                    \
   C(tiles_accepted,    "tiles covered whole")                                \
   C(tiles_partial,     "tiles left to the edge evaluator")
@@ -84,6 +88,7 @@ namespace halfspace {
 HALFSPACE_COUNTER_STRUCT(FrontEndCounters, HALFSPACE_FRONT_END_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(SetupCounters, HALFSPACE_SETUP_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(BlockWalkerCounters, HALFSPACE_BLOCK_WALKER_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(HiZCounters, HALFSPACE_HI_Z_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(TileWalkerCounters, HALFSPACE_TILE_WALKER_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EdgeEvaluatorCounters, HALFSPACE_EDGE_EVALUATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(QuadGeneratorCounters, HALFSPACE_QUAD_GENERATOR_COUNTERS)
@@ -98,6 +103,7 @@ struct Counters {
   FrontEndCounters front_end;
   SetupCounters setup;
   BlockWalkerCounters block_walker;
+  HiZCounters hi_z;
   TileWalkerCounters tile_walker;
   EdgeEvaluatorCounters edge_evaluator;
   QuadGeneratorCounters quad_generator;
@@ -109,6 +115,7 @@ struct Counters {
     visit("front_end", &Counters::front_end);
     visit("setup", &Counters::setup);
     visit("block_walker", &Counters::block_walker);
+    visit("hi_z", &Counters::hi_z);
     visit("tile_walker", &Counters::tile_walker);
     visit("edge_evaluator", &Counters::edge_evaluator);
     visit("quad_generator", &Counters::quad_generator);

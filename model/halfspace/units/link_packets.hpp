@@ -7,6 +7,7 @@
 
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_plane.hpp"
+#include "halfspace/units/hi_z.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/square_edges.hpp"
@@ -57,9 +58,11 @@ struct DrawStatePacket {
   std::uint8_t test = 0;
   std::uint8_t write = 0;
   std::uint8_t func = 0;
-  std::uint32_t clear_code = 0;  ///< of the surface's last fast clear
-  std::uint32_t first_tile = 0;  ///< of the surface, among the tiles of all surfaces
-  std::uint16_t tiles_x = 0;     ///< tiles in a row of the surface, less 1
+  std::uint32_t clear_code = 0;   ///< of the surface's last fast clear
+  std::uint32_t first_tile = 0;   ///< of the surface, among the tiles of all surfaces
+  std::uint16_t tiles_x = 0;      ///< tiles in a row of the surface, less 1
+  std::uint32_t first_block = 0;  ///< of the surface, among the blocks of all surfaces
+  std::uint16_t blocks_x = 0;     ///< blocks in a row of the surface, less 1
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -82,6 +85,8 @@ struct DrawStatePacket {
     visit("clear_code", &P::clear_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("first_tile", &P::first_tile, &Widths::LineBits, Sign::kUnsigned);
     visit("tiles_x", &P::tiles_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("first_block", &P::first_block, &Widths::LineBits, Sign::kUnsigned);
+    visit("blocks_x", &P::blocks_x, &Widths::BlockCoordBits, Sign::kUnsigned);
   }
 };
 
@@ -118,6 +123,10 @@ inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits
 /// What the walk needs of a triangle. It starts at the first block of the bounds.
 struct SetupTrianglePacket {
   std::array<std::int64_t, 3> e{};  ///< at the centre of the first pixel of that block
+  std::int64_t z = 0;               ///< HiZPlane there
+  std::int64_t z_dx = 0;
+  std::int64_t z_dy = 0;
+  std::uint8_t z_known = 0;
   std::array<std::int32_t, 3> a{};
   std::array<std::int32_t, 3> b{};
   std::uint16_t x_first = 0;  ///< bounds, in pixels, inclusive
@@ -129,6 +138,10 @@ struct SetupTrianglePacket {
   static constexpr void fields(Visit&& visit) {
     using P = SetupTrianglePacket;
     visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("z", &P::z, &Widths::HiZWordBits, Sign::kSigned);
+    visit("z_dx", &P::z_dx, &Widths::HiZStepBits, Sign::kSigned);
+    visit("z_dy", &P::z_dy, &Widths::HiZStepBits, Sign::kSigned);
+    visit("z_known", &P::z_known, &Widths::FlagBits, Sign::kUnsigned);
     visit("a", &P::a, &Widths::StepBits, Sign::kSigned);
     visit("b", &P::b, &Widths::StepBits, Sign::kSigned);
     visit("x_first", &P::x_first, &Widths::PixelBits, Sign::kUnsigned);
@@ -146,6 +159,11 @@ inline SetupTrianglePacket to_packet(const SetupTriangle& triangle, const Walker
                              .x_last = static_cast<std::uint16_t>(bounds.x_last),
                              .y_first = static_cast<std::uint16_t>(bounds.y_first),
                              .y_last = static_cast<std::uint16_t>(bounds.y_last)};
+  const HiZPlane& plane = triangle.plane;
+  packet.z = hi_z_wrap(plane.z + plane.dx * x + plane.dy * y);
+  packet.z_dx = plane.dx;
+  packet.z_dy = plane.dy;
+  packet.z_known = plane.known ? 1 : 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge& edge = triangle.edge[i];
     packet.e[i] = edge.c + ((edge.a * x + edge.b * y) << walker.sub_pixel_bits);
@@ -270,6 +288,22 @@ struct QuadBeat {
     visit("parts", &P::parts, &Widths::FlagBits, Sign::kUnsigned, &Widths::ZParts);
     visit("index", &P::index, &Widths::QuadIndexBits, Sign::kUnsigned, &Widths::QuadWidth);
     visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::QuadWidth);
+  }
+};
+
+/// early_z -> hi_z, for each burst: what is stored in the parts of its tile that it touched, none where it
+/// has nothing to do with stored depth. Codes of other parts are 0.
+struct HiZUpdatePacket {
+  std::array<std::uint8_t, 4> touched{};
+  std::array<std::uint32_t, 4> least{};
+  std::array<std::uint32_t, 4> most{};
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = HiZUpdatePacket;
+    visit("touched", &P::touched, &Widths::FlagBits, Sign::kUnsigned, &Widths::ZParts);
+    visit("least", &P::least, &Widths::CodeBits, Sign::kUnsigned, &Widths::ZParts);
+    visit("most", &P::most, &Widths::CodeBits, Sign::kUnsigned, &Widths::ZParts);
   }
 };
 

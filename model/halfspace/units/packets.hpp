@@ -84,9 +84,18 @@ struct DepthEquation {
   PlaneEquation plane;           ///< plane
 };
 
+/// Depth as hi_z sees it; see units/hi_z_plane.hpp.
+struct HiZPlane {
+  std::int64_t z = 0;   ///< the polygon offset in it
+  std::int64_t dx = 0;  ///< change for a pixel
+  std::int64_t dy = 0;
+  bool known = false;  ///< else the plane is too steep, or nobody asked for it
+};
+
 /// setup -> block_walker.
 struct SetupTriangle {
   std::array<Edge, 3> edge;
+  HiZPlane plane;    ///< at the centre of pixel (0, 0)
   PixelRect bounds;  ///< pixels whose centres the bounding box, the scissor and the target all hold
   DepthEquation depth;
   std::uint32_t triangle = 0;
@@ -106,6 +115,10 @@ struct BlockJob {
   std::uint8_t y_first = 0;
   std::uint8_t y_last = 0;
   std::uint64_t tiles = 0;  ///< bit y * (tiles in a row of the block) + x: the triangle may touch it
+  std::int64_t z = 0;       ///< HiZPlane at the centre of the block's top left pixel
+  std::int64_t z_dx = 0;
+  std::int64_t z_dy = 0;
+  std::uint8_t z_known = 0;
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -120,6 +133,10 @@ struct BlockJob {
     visit("y_first", &BlockJob::y_first, &Widths::BlockLog2, Sign::kUnsigned);
     visit("y_last", &BlockJob::y_last, &Widths::BlockLog2, Sign::kUnsigned);
     visit("tiles", &BlockJob::tiles, &Widths::BlockTiles, Sign::kUnsigned);
+    visit("z", &BlockJob::z, &Widths::HiZWordBits, Sign::kSigned);
+    visit("z_dx", &BlockJob::z_dx, &Widths::HiZStepBits, Sign::kSigned);
+    visit("z_dy", &BlockJob::z_dy, &Widths::HiZStepBits, Sign::kSigned);
+    visit("z_known", &BlockJob::z_known, &Widths::FlagBits, Sign::kUnsigned);
   }
 };
 

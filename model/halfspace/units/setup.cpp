@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "halfspace/units/hi_z_plane.hpp"
+
 namespace halfspace {
 namespace {
 
@@ -83,6 +85,10 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
     make_depth_equation(v, in.offset, out.edge, area2, state.depth_format, state.limits, state.interpolator,
                         out.depth);
   }
+  const bool has_plane =
+      state.depth_format != DepthFormat::kNone && state.interpolator == DepthInterpolator::kPlane;
+  out.plane =
+      state.hi_z && has_plane ? hi_z_plane(out.depth, state.depth_format, state.sub_pixel_bits) : HiZPlane{};
   return SetupVerdict::kDrawn;
 }
 

@@ -23,6 +23,7 @@ struct SetupState {
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
+  bool hi_z = false;  ///< make HiZPlane too, where the interpolator has a plane
 };
 
 enum class SetupVerdict : std::uint8_t {

@@ -162,8 +162,10 @@ void check(const Reader& reader, const FrameRecord& record) {
       }
       for (std::uint32_t b = 0; b < packets.triangles[triangle].blocks; ++b, ++block) {
         const int jobs = packets.blocks[block].jobs();
-        if (jobs == 0 || jobs > row_tiles * row_tiles) {
-          reader.fail(fmt::format("{} tile jobs in a block; legal: 1 to {}", jobs, row_tiles * row_tiles));
+        const int least = record.config.hi_z.enabled ? 0 : 1;
+        if (jobs < least || jobs > row_tiles * row_tiles) {
+          reader.fail(
+              fmt::format("{} tile jobs in a block; legal: {} to {}", jobs, least, row_tiles * row_tiles));
         }
         if (static_cast<std::size_t>(jobs) > packets.jobs.size() - job) {
           reader.fail("more tile jobs in blocks than in the list");

@@ -50,6 +50,10 @@ class LaneMachines {
       }
     }
     memory.out = typename Policy::Table(rows);
+    if (configs_[0].hi_z.enabled) {  // all have the same packets
+      memory.hi_z_lag = static_cast<std::uint64_t>(configs_[0].hi_z.lag);
+      memory.retired = typename Policy::Table(kHiZRing);
+    }
     std::vector<Machine<std::uint64_t>> machines;
     for (std::size_t i = 0; i < kMachines; ++i) {
       machines.push_back(machine(configs_[i < configs_.size() ? i : 0]));
@@ -100,9 +104,9 @@ class Cores {
     first_.job(work);
     rest_.job(work);
   }
-  HWY_INLINE void block(std::uint32_t empty_before) {
-    first_.block(empty_before);
-    rest_.block(empty_before);
+  HWY_INLINE void block(std::uint32_t empty_before, int jobs) {
+    first_.block(empty_before, jobs);
+    rest_.block(empty_before, jobs);
   }
   HWY_INLINE void block_done() {
     first_.block_done();
@@ -135,7 +139,7 @@ class Cores<Policy, 0> {
   HWY_INLINE void dropped() {}
   HWY_INLINE void drawn() {}
   HWY_INLINE void job(const JobWork& /*work*/) {}
-  HWY_INLINE void block(std::uint32_t /*empty_before*/) {}
+  HWY_INLINE void block(std::uint32_t /*empty_before*/, int /*jobs*/) {}
   HWY_INLINE void block_done() {}
   HWY_INLINE void walked(std::uint32_t /*empty_after*/) {}
   HWY_INLINE void keep_near() {}
@@ -167,7 +171,7 @@ class Pass {
       }
     }
   }
-  HWY_INLINE void block(std::uint32_t empty_before) { cores_.block(empty_before); }
+  HWY_INLINE void block(std::uint32_t empty_before, int jobs) { cores_.block(empty_before, jobs); }
   HWY_INLINE void block_done() { cores_.block_done(); }
   HWY_INLINE void walked(std::uint32_t empty_after) { cores_.walked(empty_after); }
   void fast_clear(std::uint32_t tiles) {

@@ -17,7 +17,10 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -25,6 +28,7 @@
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 #include "halfspace/timing/stall_plan.hpp"
+#include "halfspace/units/hi_z.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace halfspace::HWY_NAMESPACE {
@@ -46,6 +50,9 @@ struct RecurrenceMemory {
   std::array<typename TimePolicy::SetupCredits, kSetupFifos> setup_fifos;
   std::array<typename TimePolicy::Credits, kFifos - kSetupFifos> fifos;  ///< the others
   typename TimePolicy::Table out;  ///< by line of memory: first cycle in which it may be asked for again
+  std::optional<std::uint64_t> hi_z_lag;  ///< where the machine has hi_z
+  typename TimePolicy::Table
+      retired;  ///< where it has: by job, in a ring, the cycle in which hi_z can see it
 };
 
 template <class TimePolicy, class Stalls, class Probe>
@@ -93,8 +100,9 @@ class RecurrenceCore {
     block_next_ = near(taken);
   }
 
-  /// A block job, after `empty_before` blocks without a tile; its tile jobs follow, then block_done().
-  HWY_INLINE void block(std::uint32_t empty_before) {
+  /// A block job, after `empty_before` blocks without a tile, of which hi_z leaves `jobs` tiles; where it
+  /// leaves some, their jobs follow, then block_done().
+  HWY_INLINE void block(std::uint32_t empty_before, int jobs) {
     block_begun_ = steps(empty_before);
     block_next_ = block_begun_ + 1;
     block_visible_ = block_begun_ + (kBlockLatency + stall(StallPoint::kBlockWalker, blocks_));
@@ -102,13 +110,20 @@ class RecurrenceCore {
       probe_->busy(Stage::kBlockWalker, block_begun_, block_next_);
       probe_->note(&PacketTimes::block, block_begun_);
     }
+    if (memory_->hi_z_lag) {
+      hi_z(jobs);
+    }
   }
 
   HWY_INLINE void block_done() {
-    if constexpr (Probe::kLooks) {
-      probe_->link(Link::kBlockWalker, blocks_, block_begun_, tile_next_);
+    if (memory_->hi_z_lag) {
+      if constexpr (Probe::kLooks) {
+        probe_->link(Link::kHiZ, passed_, hi_z_next_ - 1, tile_next_);
+      }
+      fifo<Fifo::kHiZ>().give(passed_++, tile_next_);
+    } else {
+      block_left(tile_next_);
     }
-    fifo<Fifo::kBlockWalker>().give(blocks_++, tile_next_);
   }
 
   HWY_INLINE void job(const JobWork& work) {
@@ -128,16 +143,19 @@ class RecurrenceCore {
                                 work.quads == 0 ? T(1) : beats_of(work));
       probe_->note(&PacketTimes::g, g);
     }
+    const std::uint64_t number = jobs_;
     tile_next_ = x + 1;
     e_next_ = e + 1;
     fifo<Fifo::kTileWalker>().give(jobs_, e_next_);
     fifo<Fifo::kEdgeEvaluator>().give(jobs_++, g + 1);
     if (work.quads == 0) {
       g_next_ = g + 1;
+      retire(number, g + kHiZEmptyLatency);
       return;
     }
     g_next_ = g + beats_of(work);
     burst(work, g);
+    retire(number, b_next_ + (kHiZUpdateLatency - 1));
   }
 
   /// The triangle is done after so many more blocks without a tile.
@@ -149,13 +167,13 @@ class RecurrenceCore {
 
   /// `cycles`: of the clear itself.
   HWY_INLINE void fast_clear(S cycles) {
-    clear_next_ = idle() + cycles;
+    clear_next_ = drained() + cycles;
     cull_next_ = later(cull_next_, clear_next_);
   }
 
   /// Writes back the dirty lines of the z cache, which has `lines`, and gives the cycles of the frame.
   HWY_INLINE S flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
-    T scan_next = near(idle());
+    T scan_next = later(near(idle()), hi_z_out_);
     std::uint32_t seen = 0;
     for (const ZFlush& line : dirty) {
       scan_next = keep_near(scan_next);
@@ -169,9 +187,9 @@ class RecurrenceCore {
 
   /// What the probe wants to know where a draw ends.
   [[nodiscard]] Progress<T> progress() const {
-    return {.free = {decide_next_, block_next_, tile_next_, e_next_, g_next_, f_next_, b_next_},
+    return {.free = {decide_next_, block_next_, hi_z_next_, tile_next_, e_next_, g_next_, f_next_, b_next_},
             .sink_next = y_next_,
-            .packets = {culled_, triangles_, blocks_, jobs_, jobs_, bursts_, bursts_, bursts_}};
+            .packets = {culled_, triangles_, blocks_, passed_, jobs_, jobs_, bursts_, bursts_, bursts_}};
   }
 
   /// First cycle of beat 0 of the last burst at the sink.
@@ -215,6 +233,63 @@ class RecurrenceCore {
     return c + kSetupCullLatency;
   }
 
+  /// The block leaves the walker's FIFO, in the cycle before `next`.
+  HWY_INLINE void block_left(const T& next) {
+    if constexpr (Probe::kLooks) {
+      probe_->link(Link::kBlockWalker, blocks_, block_begun_, next);
+    }
+    fifo<Fifo::kBlockWalker>().give(blocks_++, next);
+  }
+
+  /// hi_z decides the block, when all that it must see has been applied, one job a cycle.
+  HWY_INLINE void hi_z(int jobs) {
+    const T& visible = block_visible_;
+    const T updated = see(hi_z_must_see(jobs_before_.front(), *memory_->hi_z_lag, seen_), hi_z_next_);
+    const T h = later(later(later(visible, hi_z_next_), updated), fifo<Fifo::kHiZ>().usable(passed_));
+    if constexpr (Probe::kLooks) {
+      probe_->template split<3>(Stage::kHiZ, hi_z_next_, {visible, updated, h}, 1);
+      probe_->note(&PacketTimes::hi_z, h);
+    }
+    hi_z_next_ = h + 1;
+    hi_z_out_ = h + (jobs == 0 ? kHiZLatency - 1 : 1);
+    block_left(hi_z_next_);
+    block_visible_ = h + (kHiZLatency + stall(StallPoint::kHiZ, passed_));
+    std::shift_left(jobs_before_.begin(), jobs_before_.end(), 1);
+    jobs_before_.back() = jobs_ + static_cast<std::uint64_t>(jobs);
+  }
+
+  /// Applies jobs up to number `end`, from cycle `from` on; gives the cycle of the last.
+  HWY_INLINE T see(std::uint64_t end, const T& from) {
+    T updated{};
+    for (; seen_ != end; ++seen_) {
+      updated = later(later(memory_->retired.get(static_cast<std::uint32_t>(seen_ % kHiZRing)), update_next_),
+                      from);
+      update_next_ = updated + 1;
+    }
+    return updated;
+  }
+
+  /// Job `number` can be seen by hi_z from cycle `at` on.
+  HWY_INLINE void retire(std::uint64_t number, const T& at) {
+    if (memory_->hi_z_lag) {
+      memory_->retired.set(static_cast<std::uint32_t>(number % kHiZRing), at);
+    }
+  }
+
+  /// The first cycle in which nothing is left to do, and hi_z has seen all.
+  HWY_INLINE S drained() {
+    const S at = idle();
+    if (!memory_->hi_z_lag) {
+      return at;
+    }
+    // What the next block must see is applied at once, the rest when nothing else is left to do.
+    see(hi_z_must_see(jobs_before_.front(), *memory_->hi_z_lag, seen_), hi_z_next_);
+    const T from = near(at);
+    see(jobs_, from);
+    jobs_before_.fill(jobs_);
+    return clock_.setup(later(later(from, update_next_), hi_z_out_));
+  }
+
   /// So many blocks without a tile; gives the cycle after them. Each step waits for the credit of the next
   /// job.
   HWY_INLINE T steps(std::uint32_t empty) {
@@ -252,7 +327,7 @@ class RecurrenceCore {
 
   /// Of all times behind setup.
   [[nodiscard]] HWY_INLINE T latest() const {
-    return later(later(later(block_next_, tile_next_), later(e_next_, g_next_)),
+    return later(later(later(later(block_next_, hi_z_next_), tile_next_), later(e_next_, g_next_)),
                  later(later(later(f_next_, b_next_), y_next_), later(filled_next_, written_next_)));
   }
 
@@ -285,6 +360,9 @@ class RecurrenceCore {
     block_next_ = Clock::since(block_next_, by);
     block_begun_ = Clock::since(block_begun_, by);
     block_visible_ = Clock::since(block_visible_, by);
+    hi_z_next_ = Clock::since(hi_z_next_, by);
+    hi_z_out_ = Clock::since(hi_z_out_, by);
+    update_next_ = Clock::since(update_next_, by);
     tile_next_ = Clock::since(tile_next_, by);
     e_next_ = Clock::since(e_next_, by);
     g_next_ = Clock::since(g_next_, by);
@@ -298,6 +376,7 @@ class RecurrenceCore {
       fifo.move_clock(by);
     }
     memory_->out.move_clock(by);
+    memory_->retired.move_clock(by);
     clock_.move(by);
   }
 
@@ -422,7 +501,10 @@ class RecurrenceCore {
   S y_last_{};
   T block_next_{};
   T block_begun_{};    ///< the step of the block at work
-  T block_visible_{};  ///< to the tile walker
+  T block_visible_{};  ///< to the next unit
+  T hi_z_next_{};
+  T hi_z_out_{};  ///< the last block that it took is out of the pipe, if nothing is left of it
+  T update_next_{};
   T tile_next_{};
   T e_next_{};
   T g_next_{};
@@ -439,6 +521,9 @@ class RecurrenceCore {
   std::uint64_t culled_ = 0;
   std::uint64_t triangles_ = 0;
   std::uint64_t blocks_ = 0;
+  std::uint64_t passed_ = 0;                            ///< blocks that hi_z left tiles of
+  std::uint64_t seen_ = 0;                              ///< jobs, by hi_z
+  std::array<std::uint64_t, kHiZDepth> jobs_before_{};  ///< at the ends of the last blocks, the oldest first
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;
   std::uint64_t fills_ = 0;

@@ -31,6 +31,9 @@ inline constexpr std::size_t kMostQuads = 64;
 /// Logarithm of the bytes of the largest line, 16x16 samples of 4 bytes.
 inline constexpr std::size_t kMostLineBytesLog2 = 10;
 
+/// Jobs that may be under way between hi_z and what it sees: the lag, and the tiles of the blocks under way.
+inline constexpr std::uint64_t kHiZRing = 2048;
+
 /// The first FIFOs are those of setup.
 inline constexpr std::size_t kSetupFifos = static_cast<std::size_t>(Fifo::kSetup) + 1;
 

@@ -71,7 +71,7 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
     }
     at.continues_triangle = false;
     for (const StreamBlock* const end = at.block + at.triangle->blocks; at.block != end; ++at.block) {
-      core.block(at.block->empty_before());
+      core.block(at.block->empty_before(), at.block->jobs());
       for (const StreamJob* const jobs_end = at.job + at.block->jobs(); at.job != jobs_end; ++at.job) {
         JobWork work{.quads = *at.job, .misses = {}};
         if (segment.touches_depth != 0 && work.quads != 0) {
@@ -84,7 +84,9 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
           hooks.burst(core);
         }
       }
-      core.block_done();
+      if (at.block->jobs() != 0) {
+        core.block_done();
+      }
     }
     if (!open || !part.open_triangle || at.triangle + 1 != last) {
       core.walked(at.triangle->empty_after);

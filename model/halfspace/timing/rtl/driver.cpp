@@ -142,6 +142,8 @@ void Driver::offer() {
     in.clear_valid = true;
     in.clear_first = run_.places[item_->surface].first_tile;
     in.clear_last = in.clear_first + run_.places[item_->surface].tiles - 1;
+    in.clear_first_block = run_.blocks[item_->surface].first_block;
+    in.clear_last_block = in.clear_first_block + run_.blocks[item_->surface].blocks - 1;
   } else {
     if (!in_triangle_) {
       load_triangle();
@@ -154,9 +156,9 @@ void Driver::load_triangle() {
   const DrawContext& draw = *item_->draw;
   const bool has_depth = draw.surface != kNoSurface;
   const ScreenTriangle& triangle = item_->triangles[next_in_item_];
-  state_ = draw_state_packet(setup_state(draw.setup, triangle), draw.early_z,
-                             has_depth ? run_.places[draw.surface] : ZSurface{},
-                             has_depth ? run_.clear_code[draw.surface] : 0);
+  state_ = draw_state_packet(
+      setup_state(draw.setup, triangle), draw.early_z, has_depth ? run_.places[draw.surface] : ZSurface{},
+      has_depth ? run_.blocks[draw.surface] : HiZSurface{}, has_depth ? run_.clear_code[draw.surface] : 0);
   pack(to_packet(triangle), run_.widths, run_.in.triangle);
   pack(state_, run_.widths, run_.in.state);
   next_arrival_ = run_.cycle + run_.options.stalls.cycles(StallPoint::kSource, triangles_++);

@@ -26,6 +26,7 @@ std::vector<std::string> pipeline_arguments(const Config& config) {
 #undef MODULE
   arguments.insert(arguments.end(), parameters.begin(), parameters.end());
   arguments.push_back(fmt::format("-GMemoryTiles={}", kMemoryTiles));
+  arguments.push_back(fmt::format("-GMemoryBlocks={}", kMemoryBlocks));
   return arguments;
 }
 

@@ -25,6 +25,7 @@ class PipelineDecorator : public VerilatedPipeline {
     return pipeline_->depth_equation();
   }
   [[nodiscard]] std::span<const std::uint32_t> draw_state() const override { return pipeline_->draw_state(); }
+  [[nodiscard]] std::span<const std::uint32_t> walked_job() const override { return pipeline_->walked_job(); }
   [[nodiscard]] std::span<const std::uint32_t> block_job() const override { return pipeline_->block_job(); }
   [[nodiscard]] std::span<const std::uint32_t> tile_job() const override { return pipeline_->tile_job(); }
   [[nodiscard]] std::span<const std::uint32_t> coverage() const override { return pipeline_->coverage(); }

@@ -31,6 +31,13 @@ void check_size(const Frame& frame, const RunState& run) {
         fmt::format("{}: its depth surfaces have {} tiles of {}x{}; legal for the RTL: at most {}",
                     frame.name, tiles, size, size, kMemoryTiles));
   }
+  const std::uint32_t blocks =
+      run.blocks.empty() ? 0 : run.blocks.back().first_block + run.blocks.back().blocks;
+  if (run.config.hi_z.enabled && blocks > kMemoryBlocks) {
+    throw InputError(
+        fmt::format("{}: its depth surfaces have {} blocks; legal for hi_z of the RTL: at most {}",
+                    frame.name, blocks, kMemoryBlocks));
+  }
 }
 
 /// Driver, scoreboard, sink and memory of one run.

@@ -32,6 +32,7 @@ struct RunState {
         meter(machine, packet_report) {
     result.surfaces = make_surfaces(frame, machine, run_options.watch);
     places = place_surfaces(result.surfaces, machine);
+    blocks = place_blocks(result.surfaces, machine);
     clear_code.resize(places.size());
   }
 
@@ -50,6 +51,7 @@ struct RunState {
 
   FrameResult result;                     ///< its codes are the model's, until the end
   std::vector<ZSurface> places;           ///< by surface
+  std::vector<HiZSurface> blocks;         ///< the same for hi_z
   std::vector<std::uint32_t> clear_code;  ///< of each surface's last clear by the z cache
   std::deque<DrawContext> draws;          ///< tokens point into it
   PacketTimes times;

@@ -1,14 +1,19 @@
 /// The scoreboard of the verilated pipeline: what the C++ units say of each packet that moves on a link.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
+#include "halfspace/machine/passage/hi_z.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
 #include "halfspace/machine/passage/tile_walker.hpp"
@@ -16,6 +21,7 @@
 #include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/tokens.hpp"
 #include "halfspace/timing/rtl/memory_port.hpp"
+#include "halfspace/timing/rtl/rtl_error.hpp"
 #include "halfspace/timing/rtl/run_state.hpp"
 #include "halfspace/timing/rtl/tested_sink.hpp"
 #include "halfspace/units/quad_beats.hpp"
@@ -33,10 +39,12 @@ class Scoreboard {
         walker_config_(walker_config(run.config)),
         walker_(walker_config_),
         z_cache_(z_cache_shape(run.config), memory_lines(run.places, z_cache_shape(run.config))),
+        hi_z_(make_hi_z(run.blocks, run.config)),
         triangle_check_("setup", run.widths, run.report),
         equation_check_("setup (depth equation)", run.widths, run.report),
         state_check_("setup (draw state)", run.widths, run.report),
-        block_check_("block_walker", run.widths, run.report),
+        walked_check_("block_walker", run.widths, run.report),
+        block_check_(run.config.hi_z.enabled ? "hi_z" : "block_walker", run.widths, run.report),
         job_check_("tile_walker", run.widths, run.report),
         coverage_check_("edge_evaluator", run.widths, run.report),
         beat_check_("quad_generator", run.widths, run.report) {}
@@ -58,6 +66,10 @@ class Scoreboard {
   void clear(std::uint32_t surface, std::uint32_t code) {
     clear_surface(run_.result.surfaces[surface], code);
     z_cache_.clear(run_.places[surface]);
+    if (run_.config.hi_z.enabled) {
+      retire();
+      hi_z_.clear(run_.blocks[surface], code);
+    }
     memory_.clear(run_.places[surface]);
     run_.clear_code[surface] = code;
   }
@@ -78,6 +90,7 @@ class Scoreboard {
       }
     };
     begins(Event::kDecide, Stage::kSetup, decisions_);
+    begins(Event::kHiZ, Stage::kHiZ, walked_);
     begins(Event::kJob, Stage::kEdgeEvaluator, jobs_);
     begins(Event::kCoverage, Stage::kQuadGenerator, coverages_);
     begins(Event::kFirstBeat, Stage::kZLookup, bursts_);
@@ -102,12 +115,15 @@ class Scoreboard {
       to_visit_.pop_front();
       run_.note(&PacketTimes::block);
     }
+    if (run_.happens(Event::kHiZ) && run_.expected(walked_, "block_walker")) {
+      hi_z();
+    }
     if (run_.happens(Event::kEmit) && run_.expected(to_emit_, "tile_walker (emission)")) {
       run_.meter.take(Link::kTileWalker, to_emit_.front(), run_.cycle);
       to_emit_.pop_front();
       run_.note(&PacketTimes::emit);
     }
-    if (run_.happens(Event::kBlockDone) && run_.expected(blocks_, "block_walker")) {
+    if (run_.happens(Event::kBlockDone) && run_.expected(blocks_, "block job")) {
       block_done();
     }
     if (run_.happens(Event::kJob) && run_.expected(jobs_, "tile_walker")) {
@@ -134,7 +150,8 @@ class Scoreboard {
     run_.expect_no_more(decisions_, "setup (decision)");
     run_.expect_no_more(triangles_, "setup");
     run_.expect_no_more(to_visit_, "block_walker (emission)");
-    run_.expect_no_more(blocks_, "block_walker");
+    run_.expect_no_more(walked_, "block_walker");
+    run_.expect_no_more(blocks_, "block job");
     run_.expect_no_more(to_emit_, "tile_walker (emission)");
     run_.expect_no_more(jobs_, "tile_walker");
     run_.expect_no_more(coverages_, "edge_evaluator");
@@ -177,18 +194,58 @@ class Scoreboard {
     const TriangleToken& token = expected.token;
     walker_.walk<TileSize>(*token.triangle, *token.draw, [&](const BlockJob& block, std::uint32_t /*empty*/) {
       to_visit_.push_back(token.draw);
-      blocks_.push_back({.draw = token.draw, .triangle = token.triangle, .block = block});
-      passage::tile_walker<TileSize>(block, walker_config_, *token.draw, [&](const TileJob& job, bool whole) {
-        to_emit_.push_back(token.draw);
-        jobs_.push_back({.draw = token.draw, .triangle = token.triangle, .job = job, .whole = whole});
-      });
+      BlockToken walked{.draw = token.draw, .triangle = token.triangle, .block = block};
+      if (run_.config.hi_z.enabled) {
+        walked_.push_back(std::move(walked));
+      } else {
+        expect_block(std::move(walked));
+      }
     });
+  }
+
+  /// At tile_walker.
+  void expect_block(BlockToken token) {
+    passage::tile_walker<TileSize>(
+        token.block, walker_config_, *token.draw, [&](const TileJob& job, bool whole) {
+          to_emit_.push_back(token.draw);
+          jobs_.push_back({.draw = token.draw, .triangle = token.triangle, .job = job, .whole = whole});
+        });
+    blocks_.push_back(std::move(token));
+  }
+
+  /// hi_z takes a block. What it must see of jobs has happened before.
+  void hi_z() {
+    BlockToken token = take(walked_);
+    DrawContext& draw = *token.draw;
+    run_.meter.give_back(Link::kBlockWalker, run_.cycle + 1);
+    run_.note(&PacketTimes::hi_z);
+    walked_check_.compare(run_.cycle, token.block, run_.pipeline.walked_job());
+    retire();
+    if (retired_ < hi_z_.must_retire()) {
+      throw RtlError(fmt::format("hi_z: a block in cycle {} that must see {} jobs, of which {} are done",
+                                 run_.cycle, hi_z_.must_retire(), retired_));
+    }
+    token.block.tiles =
+        passage::hi_z(hi_z_, token.block, token.triangle->depth,
+                      draw.surface == kNoSurface ? HiZSurface{} : run_.blocks[draw.surface], draw);
+    if (token.block.tiles != 0) {
+      run_.meter.take(Link::kHiZ, &draw, run_.cycle);
+      expect_block(std::move(token));
+    }
+  }
+
+  /// Tells hi_z of the jobs that are done, in their order.
+  void retire() {
+    for (; !under_way_.empty() && under_way_.front(); under_way_.pop_front()) {
+      hi_z_.retire(*under_way_.front());
+      ++retired_;
+    }
   }
 
   /// The block leaves its FIFO, at whose head it was.
   void block_done() {
     const BlockToken expected = take(blocks_);
-    run_.meter.give_back(Link::kBlockWalker, run_.cycle + 1);
+    run_.meter.give_back(run_.config.hi_z.enabled ? Link::kHiZ : Link::kBlockWalker, run_.cycle + 1);
     block_check_.compare(run_.cycle, expected.block, run_.pipeline.block_job());
   }
 
@@ -209,7 +266,11 @@ class Scoreboard {
     run_.meter.give_back(Link::kEdgeEvaluator, run_.cycle + 1);
     run_.note(&PacketTimes::g);
     coverage_check_.compare(run_.cycle, expected.coverage, run_.pipeline.coverage());
-    if (!any(expected.coverage.mask)) {
+    const bool empty = !any(expected.coverage.mask);
+    if (run_.config.hi_z.enabled) {
+      under_way_.push_back(empty ? std::optional(HiZUpdate{}) : std::nullopt);
+    }
+    if (empty) {
       return;
     }
     run_.meter.take(Link::kQuadGenerator, expected.draw, run_.cycle);
@@ -248,7 +309,9 @@ class Scoreboard {
     const TileMask passed = z_test<TileSize>(*token.triangle, burst, draw.early_z, stored, codes);
     passage::complete_codes<TileSize>(*token.triangle, burst, draw.early_z, codes);
     const int parts = run_.config.z_cache.parts;
+    HiZUpdate update;
     if (const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, draw, parts)) {
+      update = hi_z_update<TileSize>(stored, touched, parts);
       const std::uint8_t written = passage::written_parts<TileSize>(passed, draw, parts);
       const ZMisses misses =
           passage::z_cache(z_cache_, run_.places[draw.surface], coverage, touched, written, draw);
@@ -260,6 +323,9 @@ class Scoreboard {
           memory_.expect_write(&draw, miss.victim);
         }
       }
+    }
+    if (run_.config.hi_z.enabled) {
+      *std::ranges::find_if(under_way_, [](const auto& job) { return !job; }) = update;
     }
     sink_.expect(std::move(token), passed, codes);
   }
@@ -278,10 +344,14 @@ class Scoreboard {
   WalkerConfig walker_config_;
   passage::BlockWalker walker_;
   ZCache z_cache_;
+  HiZ hi_z_;
+  std::deque<std::optional<HiZUpdate>> under_way_;  ///< by job that hi_z was not told of; empty: not done
+  std::uint64_t retired_ = 0;                       ///< jobs that it has
 
   PacketCheck<SetupTrianglePacket> triangle_check_;
   PacketCheck<DepthEquationPacket> equation_check_;
   PacketCheck<DrawStatePacket> state_check_;
+  PacketCheck<BlockJob> walked_check_;
   PacketCheck<BlockJob> block_check_;
   PacketCheck<TileJob> job_check_;
   PacketCheck<Coverage> coverage_check_;
@@ -291,6 +361,7 @@ class Scoreboard {
   std::deque<TriangleToken> decisions_;
   std::deque<ExpectedTriangle> triangles_;
   std::deque<DrawContext*> to_visit_;
+  std::deque<BlockToken> walked_;  ///< at hi_z
   std::deque<BlockToken> blocks_;
   std::deque<DrawContext*> to_emit_;
   std::deque<JobToken> jobs_;

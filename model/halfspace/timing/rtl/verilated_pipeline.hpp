@@ -25,6 +25,8 @@ struct PipelineInputs {
   bool flush = false;
   std::uint32_t clear_first = 0;
   std::uint32_t clear_last = 0;
+  std::uint32_t clear_first_block = 0;
+  std::uint32_t clear_last_block = 0;
   std::uint32_t counter_select = 0;
   std::vector<std::uint32_t> triangle;  ///< screen_triangle_t; all payloads in packed words
   std::vector<std::uint32_t> state;     ///< draw_state_t
@@ -66,6 +68,8 @@ class VerilatedPipeline {
   [[nodiscard]] virtual std::span<const std::uint32_t> setup_triangle() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> depth_equation() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> draw_state() const = 0;
+  /// Of a block job as block_walker has made it, where hi_z takes it; then where tile_walker takes it.
+  [[nodiscard]] virtual std::span<const std::uint32_t> walked_job() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> block_job() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> tile_job() const = 0;
   [[nodiscard]] virtual std::span<const std::uint32_t> coverage() const = 0;

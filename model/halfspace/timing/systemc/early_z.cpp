@@ -5,11 +5,11 @@
 
 namespace halfspace::systemc {
 
-EarlyZ::EarlyZ(const sc_core::sc_module_name& name, RunState& run, std::uint64_t base)
+EarlyZ::EarlyZ(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns, std::uint64_t base)
     : sc_module(name),
       cache(run, base),
       lookup("z_lookup", run, cache),
-      test("z_test", run, cache),
+      test("z_test", run, returns, cache),
       control("z_control", run, cache),
       run_(run) {}
 

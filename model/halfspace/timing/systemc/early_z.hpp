@@ -14,7 +14,7 @@ namespace halfspace::systemc {
 class EarlyZ : public sc_core::sc_module {
  public:
   /// Depth lies in memory from address `base` on; see DepthLayout.
-  EarlyZ(const sc_core::sc_module_name& name, RunState& run, std::uint64_t base);
+  EarlyZ(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns, std::uint64_t base);
 
   /// Fills the surfaces in memory with what they hold before the first command, in no time.
   void begin_frame();

@@ -6,8 +6,13 @@
 
 namespace halfspace::systemc {
 
-QuadGenerator::QuadGenerator(const sc_core::sc_module_name& name, RunState& run)
-    : sc_module(name), in("in"), out("out"), run_(run), meter_(Stage::kQuadGenerator, run) {
+QuadGenerator::QuadGenerator(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns)
+    : sc_module(name),
+      in("in"),
+      out("out"),
+      run_(run),
+      returns_(returns),
+      meter_(Stage::kQuadGenerator, run) {
   SC_THREAD(generate);
 }
 
@@ -20,6 +25,9 @@ void QuadGenerator::generate() {
                                             [this] { return out->credit(); });
       CoverageToken token = in->take(at);
       run_.record(&PacketTimes::g, at);
+      if (run_.config.hi_z.enabled) {
+        returns_.covered(any(token.coverage.mask), at);
+      }
       if (!any(token.coverage.mask)) {
         meter_.busy(at + 1);
         next_ = at + 1;

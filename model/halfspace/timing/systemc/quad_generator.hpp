@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/hi_z.hpp"
 #include "halfspace/timing/systemc/stage_meter.hpp"
 #include "halfspace/timing/systemc/tokens.hpp"
 
@@ -12,7 +13,8 @@ namespace halfspace::systemc {
 class QuadGenerator : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(QuadGenerator);
-  QuadGenerator(const sc_core::sc_module_name& name, RunState& run);
+  /// Tells `returns` of every coverage.
+  QuadGenerator(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns);
 
   sc_core::sc_port<CreditIn<CoverageToken>> in;
   sc_core::sc_port<CreditOut<BurstToken>> out;
@@ -23,6 +25,7 @@ class QuadGenerator : public sc_core::sc_module {
   void generate();
 
   RunState& run_;
+  JobReturns& returns_;
   StageMeter meter_;
   Cycle next_ = 0;  ///< first cycle in which the next coverage may be taken
 };

@@ -8,6 +8,7 @@
 #include "halfspace/timing/systemc/block_walker.hpp"
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/edge_evaluator.hpp"
+#include "halfspace/timing/systemc/hi_z.hpp"
 #include "halfspace/timing/systemc/quad_generator.hpp"
 #include "halfspace/timing/systemc/setup.hpp"
 #include "halfspace/timing/systemc/sink.hpp"
@@ -32,6 +33,7 @@ struct RasterPipeline::Units {
   Units(RunState& run, FrameControl& control, std::uint64_t base)
       : setup_link(run, Fifo::kSetup),
         block_link(run, Fifo::kBlockWalker),
+        hi_z_link(run, Fifo::kHiZ),
         tile_link(run, Fifo::kTileWalker),
         edge_link(run, Fifo::kEdgeEvaluator),
         quad_link(run, Fifo::kQuadGenerator),
@@ -39,17 +41,21 @@ struct RasterPipeline::Units {
         source("source", run, control),
         setup("setup", run),
         block_walker("block_walker", run),
+        hi_z("hi_z", run),
         tile_walker("tile_walker", run),
         edge_evaluator("edge_evaluator", run),
-        quad_generator("quad_generator", run),
-        early_z("early_z", run, base),
+        quad_generator("quad_generator", run, hi_z.returns),
+        early_z("early_z", run, hi_z.returns, base),
         sink("sink", run) {
     source.out(setup);
     source.depth(early_z.control);
     setup.out(setup_link);
     block_walker.in(setup_link);
     block_walker.out(block_link);
-    tile_walker.in(block_link);
+    const bool with_hi_z = run.config.hi_z.enabled;  // else it sees no block
+    hi_z.in(with_hi_z ? block_link : hi_z_link);
+    hi_z.out(hi_z_link);
+    tile_walker.in(with_hi_z ? hi_z_link : block_link);
     tile_walker.out(tile_link);
     edge_evaluator.in(tile_link);
     edge_evaluator.out(edge_link);
@@ -63,6 +69,7 @@ struct RasterPipeline::Units {
   void begin_frame() {
     setup.begin_frame();
     block_walker.begin_frame();
+    hi_z.begin_frame();
     tile_walker.begin_frame();
     edge_evaluator.begin_frame();
     quad_generator.begin_frame();
@@ -72,6 +79,7 @@ struct RasterPipeline::Units {
 
   CreditLink<TriangleToken> setup_link;
   CreditLink<BlockToken> block_link;
+  CreditLink<BlockToken> hi_z_link;
   CreditLink<JobToken> tile_link;
   CreditLink<CoverageToken> edge_link;
   CreditLink<BurstToken> quad_link;
@@ -79,6 +87,7 @@ struct RasterPipeline::Units {
   Source source;
   Setup setup;
   BlockWalker block_walker;
+  HiZ hi_z;
   TileWalker tile_walker;
   EdgeEvaluator edge_evaluator;
   QuadGenerator quad_generator;
@@ -144,6 +153,12 @@ Cycle RasterPipeline::idle_from() const {
     from = std::max(from, meter->next());
   }
   return from;
+}
+
+Cycle RasterPipeline::hi_z_out() const { return units_->hi_z.blocks_out(); }
+
+Cycle RasterPipeline::clear_hi_z(std::uint32_t surface, std::uint32_t code, Cycle idle) {
+  return run_.config.hi_z.enabled ? units_->hi_z.clear(surface, code, idle) : idle;
 }
 
 void RasterPipeline::end_frame(Cycle cycles) {

@@ -74,6 +74,8 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   void begin_frame() override;
   void end_frame(Cycle cycles) override;
   [[nodiscard]] Cycle idle_from() const override;
+  [[nodiscard]] Cycle hi_z_out() const override;
+  Cycle clear_hi_z(std::uint32_t surface, std::uint32_t code, Cycle idle) override;
 
   void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
   tlm::tlm_response_status write_register(std::uint64_t address, std::uint32_t value);

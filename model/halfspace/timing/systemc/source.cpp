@@ -76,7 +76,7 @@ Cycle Source::drain() {
 }
 
 void Source::end_frame() {
-  const Cycle begin = drain();
+  const Cycle begin = std::max(drain(), control_.hi_z_out());
   const Cycle last = depth->flush(begin);
   run_.clock.wait_until(last + 1);
   control_.end_frame(last + 1);
@@ -102,7 +102,7 @@ void Source::give(DrawContext& draw, const ScreenTriangle& triangle) {
 }
 
 void Source::fast_clear(std::uint32_t surface, std::uint32_t code) {
-  const Cycle begin = drain();
+  const Cycle begin = control_.clear_hi_z(surface, code, drain());
   depth->clear(surface, code);
   clear_surface(run_.result.surfaces[surface], code);
   const std::uint32_t tiles = run_.places[surface].tiles;

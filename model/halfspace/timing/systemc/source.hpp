@@ -22,6 +22,11 @@ class FrameControl {
   virtual void end_frame(Cycle cycles) = 0;
   /// First cycle in which no stage has anything left to do; for when the pipe is empty.
   [[nodiscard]] virtual Cycle idle_from() const = 0;
+  /// The same of the flush at the end of the frame, for which blocks must have left hi_z too.
+  [[nodiscard]] virtual Cycle hi_z_out() const = 0;
+  /// hi_z sees all jobs and clears the surface, in a pipe that is empty from cycle `idle` on; gives the cycle
+  /// in which it is through.
+  virtual Cycle clear_hi_z(std::uint32_t surface, std::uint32_t code, Cycle idle) = 0;
 };
 
 class Source : public sc_core::sc_module {

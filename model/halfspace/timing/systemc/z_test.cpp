@@ -10,8 +10,8 @@
 
 namespace halfspace::systemc {
 
-ZTest::ZTest(const sc_core::sc_module_name& name, RunState& run, ZCacheState& cache)
-    : sc_module(name), out("out"), run_(run), cache_(cache), meter_(Stage::kZTest, run) {
+ZTest::ZTest(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns, ZCacheState& cache)
+    : sc_module(name), out("out"), run_(run), returns_(returns), cache_(cache), meter_(Stage::kZTest, run) {
   SC_THREAD(test_bursts);
   set_stack_size(kStackBytes);
   SC_THREAD(write_back);
@@ -135,6 +135,9 @@ TestedToken ZTest::test(PendingToken& token) {
       cache_.lines.mark_written(token.slot[part]);
     }
   });
+  if (run_.config.hi_z.enabled) {
+    returns_.tested(hi_z_update<TileSize>(stored.data(), token.touched, parts), next_ - 1);
+  }
   TestedToken tested{.draw = &draw, .burst = std::move(token.burst), .passed = passed, .codes = {}};
   if (draw.record_quads) {
     tested.codes.assign(codes.begin(), codes.end());

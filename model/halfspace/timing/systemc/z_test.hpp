@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/hi_z.hpp"
 #include "halfspace/timing/systemc/stage_meter.hpp"
 #include "halfspace/timing/systemc/z_cache_state.hpp"
 
@@ -15,7 +16,8 @@ namespace halfspace::systemc {
 class ZTest : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(ZTest);
-  ZTest(const sc_core::sc_module_name& name, RunState& run, ZCacheState& cache);
+  /// Tells `returns` of every burst.
+  ZTest(const sc_core::sc_module_name& name, RunState& run, JobReturns& returns, ZCacheState& cache);
 
   sc_core::sc_port<CreditOut<TestedToken>> out;
 
@@ -31,6 +33,7 @@ class ZTest : public sc_core::sc_module {
   void write_back();
 
   RunState& run_;
+  JobReturns& returns_;
   ZCacheState& cache_;
   StageMeter meter_;
   std::array<ZLines::Victim, kMaxZParts> victims_;

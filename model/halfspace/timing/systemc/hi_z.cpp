@@ -1,0 +1,96 @@
+#include "halfspace/timing/systemc/hi_z.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "halfspace/machine/surfaces.hpp"
+#include "halfspace/timing/contract.hpp"
+
+namespace halfspace::systemc {
+
+void JobReturns::covered(bool burst, Cycle taken) {
+  returns_.push_back({.known = !burst, .ready = taken + kHiZEmptyLatency, .update = {}});
+  changed_.notify();
+}
+
+void JobReturns::tested(const HiZUpdate& update, Cycle tested) {
+  const auto burst = std::ranges::find(returns_, false, &Return::known);
+  *burst = {.known = true, .ready = tested + kHiZUpdateLatency, .update = update};
+  changed_.notify();
+}
+
+const HiZUpdate& JobReturns::next() {
+  while (returns_.empty() || !returns_.front().known) {
+    sc_core::wait(changed_);
+  }
+  return returns_.front().update;
+}
+
+HiZ::HiZ(const sc_core::sc_module_name& name, RunState& run)
+    : sc_module(name), in("in"), out("out"), run_(run), meter_(Stage::kHiZ, run) {
+  SC_THREAD(decide);
+}
+
+void HiZ::begin_frame() {
+  places_ = place_blocks(run_.result.surfaces, run_.config);
+  unit_ = make_hi_z(places_, run_.config);
+  returns.begin_frame();
+  seen_ = 0;
+  next_ = 0;
+  next_update_ = 0;
+  out_ = 0;
+}
+
+Cycle HiZ::see(std::uint64_t end, Cycle from) {
+  Cycle last = 0;
+  for (; seen_ < end; ++seen_) {
+    unit_.retire(returns.next());
+    last = std::max({returns.ready(), next_update_, from});
+    next_update_ = last + 1;
+    returns.pop();
+  }
+  return last;
+}
+
+void HiZ::decide() {
+  run_.guard([&] {
+    for (;;) {
+      meter_.waits_for(stall::kNoInput);
+      const Cycle visible = in->visible();
+      meter_.work_on(in->front().draw);
+      meter_.stalled(stall::kNoInput, visible);
+      meter_.waits_for(stall::kHiZNoUpdate);
+      const Cycle updated = see(unit_.must_retire(), next_);
+      meter_.stalled(stall::kHiZNoUpdate, updated);
+      meter_.waits_for(stall::kHiZNoCredit);
+      const Cycle at = std::max({visible, next_, updated, out->credit()});
+      meter_.stalled(stall::kHiZNoCredit, at);
+      run_.clock.wait_until(at);
+
+      BlockToken token = in->take(at);
+      run_.record(&PacketTimes::hi_z, at);
+      next_ = at + 1;
+      meter_.busy(next_);
+      DrawContext& draw = *token.draw;
+      const HiZSurface place = draw.surface == kNoSurface ? HiZSurface{} : places_[draw.surface];
+      token.block.tiles = passage::hi_z(unit_, token.block, token.triangle->depth, place, draw);
+      out_ = next_;
+      if (token.block.tiles == 0) {
+        out_ = at + kHiZLatency - 1;  // it shows only there
+        run_.in_pipe.remove();
+        continue;
+      }
+      out->use_credit();
+      out->put(std::move(token), at);
+    }
+  });
+}
+
+Cycle HiZ::clear(std::uint32_t surface, std::uint32_t code, Cycle idle) {
+  see(unit_.must_retire(), next_);  // at once, what the next block must see; the rest when all else is idle
+  see(unit_.jobs(), idle);
+  unit_.clear(places_[surface], code);
+  return std::max({idle, next_update_, out_});
+}
+
+}  // namespace halfspace::systemc

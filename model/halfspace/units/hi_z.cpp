@@ -1,0 +1,159 @@
+#include "halfspace/units/hi_z.hpp"
+
+#include <bit>
+#include <stdexcept>
+
+namespace halfspace {
+namespace {
+
+/// What is known of the codes that a triangle has in a tile.
+class CodeRange {
+ public:
+  CodeRange(const DepthEquation& equation, const HiZPlane& plane, const WordBounds& words, DepthFormat format)
+      : equation_(equation),
+        known_(plane.known),
+        words_(words),
+        format_(format),
+        exponent_(format == DepthFormat::kFloat32 || equation.beyond ? equation.exponent : 0) {}
+
+  /// All of them are `code` or more. The clamp to the triangle's own range comes behind the plane.
+  [[nodiscard]] bool at_least(std::uint64_t code) const {
+    return equation_.min_code >= code || (known_ && equation_.max_code >= code && words_.least >= word(code));
+  }
+  [[nodiscard]] bool below(std::uint64_t code) const {
+    return equation_.max_code < code || (known_ && equation_.min_code < code && words_.most < word(code));
+  }
+
+ private:
+  /// `code` is between two codes of the triangle.
+  [[nodiscard]] std::int64_t word(std::uint64_t code) const {
+    return word_of_code(static_cast<std::uint32_t>(code), format_, exponent_);
+  }
+
+  const DepthEquation& equation_;
+  bool known_;
+  WordBounds words_;
+  DepthFormat format_;
+  int exponent_;
+};
+
+/// No code of the triangle passes the test against what lies within `bounds`; which of its ends count.
+bool none_passes(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, bool least_counts,
+                 bool most_counts) {
+  const auto at_least = [&](std::uint64_t code) { return most_counts && codes.at_least(code); };
+  const auto below = [&](std::uint64_t code) { return least_counts && codes.below(code); };
+  const std::uint64_t least = bounds.least;
+  const std::uint64_t most = bounds.most;
+  switch (func) {
+    case DepthFunc::kNever:
+      return true;
+    case DepthFunc::kLess:
+      return at_least(most);
+    case DepthFunc::kLequal:
+      return at_least(most + 1);
+    case DepthFunc::kEqual:
+      return at_least(most + 1) || below(least);
+    case DepthFunc::kGreater:
+      return below(least + 1);
+    case DepthFunc::kGequal:
+      return below(least);
+    case DepthFunc::kNotEqual:
+    case DepthFunc::kAlways:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+HiZ::HiZ(const HiZConfig& config, std::uint32_t blocks) : config_(config) {
+  const auto row = static_cast<std::size_t>(config.block_size / config.tile_size);
+  tiles_ = row * row;
+  entries_ = tiles_ * static_cast<std::size_t>(config.parts);
+  if (config.enabled) {
+    words_.assign(blocks, unknown_word(entries_, config.bits));
+    raising_.resize(blocks * tiles_);
+    lowering_.resize(blocks * tiles_);
+  }
+}
+
+std::uint64_t HiZ::must_retire() const {
+  return hi_z_must_see(jobs_before_.front(), static_cast<std::uint64_t>(config_.lag), seen_);
+}
+
+CodeBounds HiZ::bounds(const HiZWord& word, std::size_t tile) const {
+  const auto parts = static_cast<std::size_t>(config_.parts);
+  CodeBounds all = word.entry(tile * parts);
+  for (std::size_t part = 1; part < parts; ++part) {
+    all = unite(all, word.entry(tile * parts + part));
+  }
+  return all;
+}
+
+std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
+                          const HiZSurface& surface) {
+  see(must_retire());
+  const HiZPlane plane{.z = block.z, .dx = block.z_dx, .dy = block.z_dy, .known = block.z_known != 0};
+  std::uint64_t rejected = 0;
+  const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
+  const auto row = config_.block_size / config_.tile_size;
+  for (std::uint64_t left = state.test ? block.tiles : 0; left != 0; left &= left - 1) {
+    const int tile = std::countr_zero(left);
+    const auto at = static_cast<std::size_t>(tile);
+    const WordBounds words = [&] {
+      const int x = tile % row * config_.tile_size;
+      const int y = tile / row * config_.tile_size;
+      return config_.tile_size == 4   ? tile_words<4>(plane, x, y)
+             : config_.tile_size == 8 ? tile_words<8>(plane, x, y)
+                                      : tile_words<16>(plane, x, y);
+    }();
+    const bool none =
+        none_passes(state.func, CodeRange(equation, plane, words, state.format), bounds(words_[number], at),
+                    lowering_[number * tiles_ + at] == 0, raising_[number * tiles_ + at] == 0);
+    rejected |= std::uint64_t{none} << tile;
+  }
+  const DepthMoves moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
+  std::uint64_t left = block.tiles & ~rejected;
+  jobs_ += static_cast<std::uint64_t>(std::popcount(left));
+  for (; left != 0; left &= left - 1) {
+    const auto tile = static_cast<std::size_t>(std::countr_zero(left));
+    flights_.push_back({.block = number, .tile = static_cast<std::uint8_t>(tile), .moves = moves});
+    raising_[number * tiles_ + tile] =
+        static_cast<std::uint16_t>(raising_[number * tiles_ + tile] + (moves.up ? 1 : 0));
+    lowering_[number * tiles_ + tile] =
+        static_cast<std::uint16_t>(lowering_[number * tiles_ + tile] + (moves.down ? 1 : 0));
+  }
+  std::shift_left(jobs_before_.begin(), jobs_before_.end(), 1);
+  jobs_before_.back() = jobs_;
+  return rejected;
+}
+
+void HiZ::see(std::uint64_t jobs) {
+  for (; seen_ != jobs; ++seen_) {
+    if (retired_.empty()) {
+      throw std::logic_error("hi_z: a block is decided before a job that it sees has retired");
+    }
+    const Flight& flight = flights_.front();
+    const HiZUpdate& update = retired_.front();
+    const std::size_t at = flight.block * tiles_ + flight.tile;
+    const auto parts = static_cast<std::size_t>(config_.parts);
+    for (std::size_t part = 0; part < parts; ++part) {
+      if ((update.touched >> part & 1) != 0) {
+        put_entry(words_[flight.block], entries_, flight.tile * parts + part, update.bounds[part],
+                  config_.bits);
+      }
+    }
+    raising_[at] = static_cast<std::uint16_t>(raising_[at] - (flight.moves.up ? 1 : 0));
+    lowering_[at] = static_cast<std::uint16_t>(lowering_[at] - (flight.moves.down ? 1 : 0));
+    flights_.pop_front();
+    retired_.pop_front();
+  }
+}
+
+void HiZ::clear(const HiZSurface& surface, std::uint32_t code) {
+  see(jobs_);
+  jobs_before_.fill(jobs_);
+  std::fill_n(words_.begin() + surface.first_block, surface.blocks, cleared_word(code));
+}
+
+}  // namespace halfspace

@@ -1,0 +1,10 @@
+raster_pkg.sv
+sync_ram.sv
+memory_fifo.sv
+hi_z_states.sv
+hi_z_flights.sv
+hi_z_word.sv
+hi_z_memory.sv
+hi_z_plane.sv
+hi_z_test.sv
+hi_z.sv

@@ -1,0 +1,81 @@
+/// The cycles of docs/units/hi_z.md, as the pins that follow from them:
+///
+///     a(i)       = max(ready(i), a(i-1) + 1, h(k-1) + 1)             seen(k-1) <= i < seen(k)
+///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), a slot of the output FIFO is free)
+///     visible(n) = h(k) + 6
+///
+/// A slot is free in the cycle after its block has left; a block that is rejected leaves in h(k) + 4.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/failure.hpp"
+#include "hi_z/hi_z_coverage.hpp"
+#include "hi_z/models.hpp"
+#include "hi_z/workload.hpp"
+
+namespace halfspace::tb {
+
+class HiZTiming {
+ public:
+  HiZTiming(const HiZShape& shape, HiZCoverage& coverage) : shape_(shape), coverage_(coverage) { clear(); }
+
+  /// A job can be applied from cycle `at` on. In their order.
+  void ready(std::uint64_t at) { ready_at_.push_back(at); }
+
+  /// Compares the pins of a cycle with what they must be, and takes note of what moves in it. `command`: the
+  /// block that is offered, or null.
+  std::optional<Failure> cycle(std::uint64_t cycle, const HiZCommand* command, bool left_ready,
+                               const HiZInputs& in, const HiZOutputs& out, bool left_valid);
+
+  /// The surface of a clear holds its code; the end of a frame; a reset.
+  void cleared(const HiZCommand& command);
+  void forget();
+  void clear();
+
+  [[nodiscard]] std::uint64_t unapplied() const { return jobs_.size() - applied_; }
+
+ private:
+  struct Job {
+    std::uint32_t number = 0;
+    std::uint8_t tile = 0;
+    DepthMoves moves;
+    HiZUpdate update;
+    std::uint32_t clear_code = 0;
+  };
+  enum class State : std::uint8_t { kUnknown, kCleared, kStored };
+
+  void apply(std::uint64_t cycle);
+  void take(std::uint64_t cycle, const HiZCommand& command, bool applied_with);
+
+  HiZShape shape_;
+  HiZCoverage& coverage_;
+  bool usable_ = false;  ///< a slot of the FIFO is, in this cycle
+  bool was_reset_ = false;
+  bool waited_ = false;
+  int in_use_ = 0;  ///< slots
+  std::deque<std::uint64_t> rejected_at_;
+  std::deque<std::uint64_t> visible_at_;
+  std::uint64_t left_ = 0;
+  std::vector<Job> jobs_;
+  std::deque<std::uint64_t> ready_at_;  ///< of all jobs of the frame
+  std::uint64_t applied_ = 0;
+  std::deque<std::uint64_t> jobs_before_;  ///< as in HiZ
+  std::uint64_t seen_ = 0;
+  // For coverage.
+  struct Event {
+    std::uint64_t cycle = std::numeric_limits<std::uint64_t>::max() - 1000;
+    std::uint32_t number = 0;
+  };
+  std::vector<HiZWord> words_;
+  std::vector<State> states_;
+  std::deque<Event> blocks_;  ///< the last ones, the newest first
+  std::deque<Event> applies_;
+};
+
+}  // namespace halfspace::tb
