@@ -12,6 +12,7 @@ depth_interpolator.sv
 z_bank.sv
 z_clear_flags.sv
 z_lookup.sv
+z_pending.sv
 z_write_buffer.sv
 z_extremes_stage.sv
 z_extremes.sv

@@ -3,7 +3,7 @@
 //
 // Three units in a row. z_lookup takes the beats of a burst and asks memory for what the cache lacks. depth_interpolator
 // computes depth while memory answers. z_test compares and writes where all is there. Between them are the pending
-// store and a FIFO with credits, so neither the lookup nor the interpolator ever stalls in mid-pipe.
+// store (z_pending) and a FIFO with credits, so neither the lookup nor the interpolator ever stalls in mid-pipe.
 //
 // The first beat of a burst is taken in cycle f, tested not before f + 5 + InterpolatorLatency, and leaves 2 cycles
 // after its test.
@@ -99,20 +99,12 @@ module early_z
   localparam int unsigned PartLines = Lines / ZParts;
   localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1;
   localparam int unsigned PendingBits = $clog2(PendingDepth);
-  localparam int unsigned Beats = TileQuads / QuadWidth; // of the largest burst
-  localparam int unsigned BeatBits = Beats > 1 ? $clog2(Beats) : 1;
-  localparam int unsigned Slices = QuadWidth / TestWidth;
-  localparam int unsigned SliceBits = Slices > 1 ? $clog2(Slices) : 1;
-  localparam int unsigned CountBits = $clog2(PendingDepth + 1);
 
   localparam logic [FormatBits-1:0] Unorm16 = 1;
   localparam logic [FuncBits-1:0] Never = 0;
   localparam logic [FuncBits-1:0] Always = '1;
 
   typedef logic [PendingBits-1:0] burst_t;
-  typedef logic [BeatBits-1:0] beat_number_t;
-  typedef logic [SliceBits-1:0] slice_t;
-  typedef logic [CountBits-1:0] count_t;
 
   // Triangles, as each side needs them.
   typedef struct packed {
@@ -270,99 +262,6 @@ module early_z
 
   assign request = read_valid_o & read_ready_i;
 
-  // Pending store: what a burst has once, and its beats.
-  typedef struct packed {
-    logic [SlotBits-1:0]      slot;
-    logic [TileCoordBits-1:0] tile_x;
-    logic [TileCoordBits-1:0] tile_y;
-    edge_t [1:0]              e;
-  } burst_head_t;
-
-  typedef struct packed {
-    logic                                last;
-    slice_t                              last_slice; // the last with a quad
-    logic [QuadWidth-1:0] [QuadIndexBits-1:0] index;
-    logic [QuadWidth-1:0] [QuadMaskBits-1:0]  mask;
-  } stored_beat_t;
-
-  burst_head_t  heads_q [PendingDepth];
-  stored_beat_t beats_q [PendingDepth*Beats];
-  stored_beat_t new_beat;
-  beat_number_t beat_number_q, beat_number;
-  logic         take;
-
-  assign take        = beat_valid_i & beat_ready_o;
-  assign beat_number = first ? '0 : beat_number_q;
-
-  always_comb begin
-    new_beat = '{last: beat_i.last, last_slice: '0, index: beat_i.index, mask: beat_i.mask};
-    for (int unsigned i = 0; i < Slices; i++) begin
-      if (beat_i.mask[i*TestWidth+:TestWidth] != '0) begin
-        new_beat.last_slice = slice_t'(i);
-      end
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (take) begin
-      beat_number_q <= beat_number + beat_number_t'(1);
-      beats_q[int'(burst)*int'(Beats)+int'(beat_number)] <= new_beat;
-      if (first) begin
-        heads_q[burst] <= '{
-          slot: beat_i.slot, tile_x: beat_i.tile_x, tile_y: beat_i.tile_y, e: beat_i.e};
-      end
-    end
-  end
-
-  // From the pending store to the interpolator: a beat in a cycle in which the FIFO behind it has room.
-  count_t       pending_q;                // bursts, not all of whose beats have gone
-  burst_t       issue_burst_q;
-  beat_number_t issue_beat_q;
-  slice_t       issue_slice_q;
-  logic         issue, issue_end, issue_last, codes_ready;
-  burst_head_t  head;
-  stored_beat_t stored_beat;
-
-  assign head        = heads_q[issue_burst_q];
-  assign stored_beat = beats_q[int'(issue_burst_q)*int'(Beats)+int'(issue_beat_q)];
-  assign issue       = pending_q != '0 && codes_ready;
-  assign issue_end   = issue_slice_q == stored_beat.last_slice;
-  assign issue_last  = issue_end & stored_beat.last;
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      pending_q     <= '0;
-      issue_burst_q <= '0;
-      issue_beat_q  <= '0;
-      issue_slice_q <= '0;
-    end else begin
-      pending_q <= pending_q + count_t'(found) - count_t'(issue && issue_last);
-      if (issue) begin
-        issue_slice_q <= issue_end ? '0 : issue_slice_q + slice_t'(1);
-        if (issue_last) begin
-          issue_beat_q  <= '0;
-          issue_burst_q <= issue_burst_q == burst_t'(PendingDepth - 1)
-                           ? '0 : issue_burst_q + burst_t'(1);
-        end else if (issue_end) begin
-          issue_beat_q <= issue_beat_q + beat_number_t'(1);
-        end
-      end
-    end
-  end
-
-  sync_ram #(
-    .Width ($bits(triangle_t)),
-    .Depth (2 ** SlotBits)
-  ) u_triangles (
-    .clk_i           (clk_i),
-    .write_i         (slot_write_i),
-    .write_address_i (slot_i),
-    .data_i          (write_triangle),
-    .read_i          (issue),
-    .read_address_i  (head.slot),
-    .data_o          (triangle)
-  );
-
   // What travels with the codes.
   typedef struct packed {
     logic                                     first;
@@ -375,14 +274,54 @@ module early_z
     logic [TestWidth-1:0] [QuadMaskBits-1:0]  mask;
   } traveller_t;
 
+  traveller_t  issued, issued_q;
+  edge_t [1:0] issued_e, issued_e_q;
+  logic        pending, codes_ready, issue;
+
+  z_pending #(
+    .PendingDepth (PendingDepth)
+  ) u_pending (
+    .clk_i    (clk_i),
+    .rst_ni   (rst_ni),
+    .take_i   (beat_valid_i & beat_ready_o),
+    .first_i  (first),
+    .burst_i  (burst),
+    .beat_i   (beat_i),
+    .found_i  (found),
+    .valid_o  (pending),
+    .ready_i  (codes_ready),
+    .first_o  (issued.first),
+    .last_o   (issued.last),
+    .burst_o  (issued.burst),
+    .slot_o   (issued.slot),
+    .tile_x_o (issued.tile_x),
+    .tile_y_o (issued.tile_y),
+    .e_o      (issued_e),
+    .index_o  (issued.index),
+    .mask_o   (issued.mask)
+  );
+
+  assign issue = pending & codes_ready; // where the FIFO behind the interpolator has room
+
+  sync_ram #(
+    .Width ($bits(triangle_t)),
+    .Depth (2 ** SlotBits)
+  ) u_triangles (
+    .clk_i           (clk_i),
+    .write_i         (slot_write_i),
+    .write_address_i (slot_i),
+    .data_i          (write_triangle),
+    .read_i          (issue),
+    .read_address_i  (issued.slot),
+    .data_o          (triangle)
+  );
+
   typedef struct packed {
     traveller_t                            beat;
     test_state_t                           state;
     logic [TestSamples-1:0] [CodeBits-1:0] codes;
   } coded_t;
 
-  traveller_t  issued_q;
-  edge_t [1:0] issued_e_q;
   traveller_t  beat_q  [InterpolatorLatency] /*verilator split_var*/;
   test_state_t state_q [InterpolatorLatency] /*verilator split_var*/;
   logic [InterpolatorLatency:0] valid_q; // bit i: i cycles after the first stage
@@ -397,17 +336,8 @@ module early_z
 
   always_ff @(posedge clk_i) begin
     if (issue) begin
-      issued_q <= '{
-        first:  issue_beat_q == '0 && issue_slice_q == '0,
-        burst:  issue_burst_q,
-        slot:   head.slot,
-        tile_x: head.tile_x,
-        tile_y: head.tile_y,
-        last:   issue_last,
-        index:  stored_beat.index[int'(issue_slice_q)*TestWidth+:TestWidth],
-        mask:   stored_beat.mask[int'(issue_slice_q)*TestWidth+:TestWidth]
-      };
-      issued_e_q <= head.e;
+      issued_q   <= issued;
+      issued_e_q <= issued_e;
     end
     if (valid_q[0]) begin
       beat_q[0]  <= issued_q;
@@ -589,7 +519,7 @@ module early_z
       slot_write_i && state_read |-> slot_i != beat_i.slot)
   else $error("the slot of a burst is written while it is looked up");
   TestReadsAnotherSlot: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      slot_write_i && issue |-> slot_i != head.slot)
+      slot_write_i && issue |-> slot_i != issued.slot)
   else $error("the slot of a burst is written while it is interpolated");
 `endif
 

@@ -12,9 +12,9 @@
 module hi_z
   import raster_pkg::*;
 #(
-  /// Slots of the output FIFO, 2 or more, each as wide as block_job_t. With fewer than 7 blocks cannot leave in every
+  /// Slots of the output FIFO, 4 or more, each as wide as block_job_t. With fewer than 7 blocks cannot leave in every
   /// cycle.
-  parameter int unsigned FifoDepth = 8,
+  parameter int unsigned FifoDepth = 12,
   /// Bits of a bound, 4 to 32.
   parameter int unsigned Bits = 8,
   /// A block sees what jobs have written that are at least so many older: 1 or more.
@@ -74,6 +74,9 @@ module hi_z
 
   if (Entries > 64) begin : gen_illegal_entries
     $error("a block has more than 64 parts of tiles");
+  end
+  if (FifoDepth < 4) begin : gen_illegal_depth
+    $error("FifoDepth must be 4 or more");
   end
   if (Bits < 4 || Bits > CodeBits) begin : gen_illegal_bits
     $error("Bits must be 4 to 32");
@@ -535,24 +538,35 @@ module hi_z
   assign new_flight_valid = leaves4;
   assign new_flight       = '{number: number4_q, tiles: left4, clear_code: clear_code4_q};
 
-  // A block takes a slot of the FIFO, and gives it back when it is rejected, as though it left in its cycle 4.
-  typedef logic [$clog2(FifoDepth+1)-1:0] slots_t;
+  // A block is taken when there is a slot for it and for the three before it, of which it is not known yet whether they
+  // leave. Of those before, as many hold one as have left and not been popped: fewer than none where one of the three
+  // has been popped already.
+  typedef logic signed [$clog2(FifoDepth+1):0] slots_t;
 
-  slots_t free_q, free_d;
-  logic   pop, dropped, credit_q;
+  slots_t held_q, held;
+  logic   pop;
 
-  assign pop     = block_valid_o & block_ready_i;
-  assign dropped = valid_q[4] & (left4 == '0);
-  assign credit  = credit_q;
-  assign free_d  = free_q - slots_t'(take) + slots_t'(pop) + slots_t'(dropped);
+  assign pop    = block_valid_o & block_ready_i;
+  assign held   = held_q + slots_t'({1'b0, valid_q[1] & (|waiting_q[0])});
+  assign credit = held <= slots_t'(FifoDepth - 4);
+
+  always_ff @(posedge clk_i) begin
+    if (!frame_ni || clear_i) begin
+      held_q <= '0;
+    end else begin
+      held_q <= held - slots_t'({1'b0, pop});
+    end
+  end
+
+  // Blocks in the unit: a block that is rejected is in it up to its cycle 4.
+  slots_t blocks_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      free_q   <= slots_t'(FifoDepth);
-      credit_q <= 1'b0;
+      blocks_q <= '0;
     end else begin
-      free_q   <= free_d;
-      credit_q <= free_d != '0;
+      blocks_q <= blocks_q + slots_t'({1'b0, take}) - slots_t'({1'b0, pop})
+                  - slots_t'({1'b0, valid_q[4] & ~leaves4});
     end
   end
 
@@ -572,14 +586,14 @@ module hi_z
   assign activity_o = take             ? HiZBusy
                       : !block_valid_i ? HiZNoBlock
                       : !seen          ? HiZNoUpdate : HiZNoCredit;
-  assign idle_o     = free_q == slots_t'(FifoDepth) & ~(drain_i & flight_valid);
+  assign idle_o     = blocks_q == '0 & ~(drain_i & flight_valid);
 
 `ifndef SYNTHESIS
   JobHasLeft: assert property (@(posedge clk_i) disable iff (!frame_ni)
       apply |-> flight_valid && unapplied != '0)
   else $error("a job that has not left is applied");
   ClearIsIdle: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      clear_i || forget_i |-> valid_q == '0 && free_q == slots_t'(FifoDepth) && !take)
+      clear_i || forget_i |-> blocks_q == '0 && !take)
   else $error("a clear or the end of a frame with a block under way");
   ClearSeesAll: assert property (@(posedge clk_i) disable iff (!rst_ni)
       clear_i |-> !flight_valid && !kind_valid)

@@ -49,10 +49,6 @@ module hi_z_memory
   output logic                  clear_done_o
 );
 
-  // 1: all parts of a tile are put into the word at once. 0: one after the other, each rounded like a job of its own, as
-  // model/halfspace/units/hi_z.cpp does it; that is a chain of ZParts in one cycle.
-  localparam bit PartsAtOnce = 1'b0;
-
   typedef logic [BlockBits-1:0] number_t;
   typedef logic [CodeBits-1:0] code_t;
 
@@ -185,42 +181,21 @@ module hi_z_memory
     assign put_entry[i] = tile_q[i/ZParts] & update_q.touched[i%ZParts];
   end
 
-  localparam int unsigned Puts = PartsAtOnce ? 1 : ZParts;
-  block_word_t word_after [Puts+1] /*verilator split_var*/;
-
-  assign word_after[0] = old_word;
-  for (genvar i = 0; i < Puts; i++) begin : gen_chain
-    block_word_t        made;
-    logic [Entries-1:0] put;
-
-    if (PartsAtOnce) begin : gen_all
-      assign put = put_entry;
-    end else begin : gen_one
-      for (genvar k = 0; k < Entries; k++) begin : gen_entry
-        assign put[k] = put_entry[k] & (k % ZParts == i);
-      end
-    end
-
-    hi_z_word #(
-      .Bits (Bits)
-    ) u_word (
-      .base_i      (word_after[i].base),
-      .shift_i     (word_after[i].shift),
-      .least_i     (word_after[i].least),
-      .most_i      (word_after[i].most),
-      .put_i       (put),
-      .put_least_i (update_q.least),
-      .put_most_i  (update_q.most),
-      .base_o      (made.base),
-      .shift_o     (made.shift),
-      .least_o     (made.least),
-      .most_o      (made.most)
-    );
-
-    assign word_after[i+1] = Puts == 1 || |put ? made : word_after[i];
-  end
-
-  assign put_word = word_after[Puts];
+  hi_z_word #(
+    .Bits (Bits)
+  ) u_word (
+    .base_i      (old_word.base),
+    .shift_i     (old_word.shift),
+    .least_i     (old_word.least),
+    .most_i      (old_word.most),
+    .put_i       (put_entry),
+    .put_least_i (update_q.least),
+    .put_most_i  (update_q.most),
+    .base_o      (put_word.base),
+    .shift_o     (put_word.shift),
+    .least_o     (put_word.least),
+    .most_o      (put_word.most)
+  );
 
   always_ff @(posedge clk_i) begin
     if (!frame_ni) begin

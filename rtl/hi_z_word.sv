@@ -1,5 +1,5 @@
 // Puts bounds in the place of some entries of a word of hi_z; the others keep theirs, rounded outwards where the range of
-// the block has grown. The shift is the least with which all fit. Combinational; bit for bit put_entry() of
+// the block has grown. The shift is the least with which all fit. Combinational; bit for bit put_entries() of
 // model/halfspace/units/hi_z_bounds.hpp.
 
 module hi_z_word

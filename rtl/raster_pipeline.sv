@@ -16,7 +16,7 @@ module raster_pipeline
   parameter bit          HiZ = 1'b0,
   parameter int unsigned HiZBits = 8,
   parameter int unsigned HiZLag = 128,
-  parameter int unsigned HiZFifo = 8,
+  parameter int unsigned HiZFifo = 12,
   parameter bit          TrivialAccept = 1'b1,
   parameter int unsigned WalkerFifo = 16,
   parameter int unsigned PipeStages = 2,
@@ -90,8 +90,8 @@ module raster_pipeline
   output logic [CounterBits-1:0]                       counter_o
 );
 
-  logic setup_idle, block_idle, hi_z_idle, tile_idle, edge_idle, quad_idle, walkers_idle, units_idle,
-        early_z_idle;
+  logic setup_idle, block_idle, hi_z_idle, tile_idle, edge_idle, quad_idle, early_z_idle;
+  logic walkers_idle, units_idle;
   setup_activity_e          setup_activity;
   block_walker_activity_e   block_activity;
   hi_z_activity_e           hi_z_activity;

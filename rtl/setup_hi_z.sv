@@ -177,8 +177,8 @@ module setup_hi_z
   assign dy_o = known_o ? step_y : '0;
 
   logic unused_bits;
-  assign unused_bits = ^{moved[SubPixelBits-1:0], exponent_i[ExponentBits-1:5], x_first_i[BlockLog2-1:0],
-                         y_first_i[BlockLog2-1:0]};
+  assign unused_bits = ^{moved[SubPixelBits-1:0], exponent_i[ExponentBits-1:5],
+                         x_first_i[BlockLog2-1:0], y_first_i[BlockLog2-1:0]};
 
 `ifdef SYNTHESIS
   logic unused_there;

@@ -37,7 +37,7 @@ module setup_plane
   output logic [1:0] [HalfGradientBits-1:0]     dx_o,
   output logic [1:0] [HalfGradientBits-1:0]     dy_o,
   output logic                                  short_o,
-  output logic                                  large_o  // a pixel changes depth by 2^26 units of a word of 32 bits, or more
+  output logic                                  large_o  // a pixel changes depth by 2^-6 or more
 );
 
   localparam int unsigned Divided = 17; // the cycle in which the reciprocal is there
@@ -283,7 +283,8 @@ module setup_plane
     // last of them is worth 2^69.
     localparam int unsigned Known = Divided + 1 + 3 * 2;
     localparam int unsigned Digits = 23 * 2;
-    localparam int unsigned Least = 26 + ShortBits + GradientFraction - SubPixelBits - (DividendBits - Digits);
+    localparam int unsigned Least = 26 + ShortBits + GradientFraction - SubPixelBits
+                                    - (DividendBits - Digits);
 
     logic [Latency:Known+1] large_q;
     logic                   short_out_q;

@@ -417,7 +417,8 @@ module z_test
 
   // What the burst leaves: its last beat sees all that the others have written.
   if (HiZ) begin : gen_update
-    logic [ZParts-1:0] parts, parts_q;  // in which the burst has quads: of the beats up to this one; before it
+    // In which the burst has quads: of the beats up to this one; before it.
+    logic [ZParts-1:0] parts, parts_q;
 
     always_comb begin
       parts = first_q ? '0 : parts_q;

@@ -102,7 +102,7 @@ def _hi_z() -> Unit:
             of(8, 32, Lag=32),
             of(8, 16),
             of(8, 32, 4, False, Bits=16),
-            of(4, 8, 4, False, Bits=32, Lag=1, FifoDepth=2, MemoryBlocks=2, ClearBlocks=1),
+            of(4, 8, 4, False, Bits=32, Lag=1, FifoDepth=4, MemoryBlocks=2, ClearBlocks=1),
             of(16, 64, 2, False, FifoDepth=16, MemoryBlocks=5000, ClearBlocks=1024),
         ),
     )

@@ -11,7 +11,8 @@
 namespace halfspace::tb {
 namespace {
 
-constexpr std::uint64_t kRejectLatency = 4;  // a block that is rejected leaves so late
+constexpr std::uint64_t kRejectLatency = 4;       // a block that is rejected is in the unit so long
+constexpr std::int64_t kUnknown = kHiZDepth - 1;  // blocks of which it is not known yet whether they leave
 constexpr std::size_t kRemembered = 4;
 constexpr std::uint8_t kBusy = 0;
 constexpr std::uint8_t kNoBlock = 1;
@@ -25,7 +26,7 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
   const auto timing = [cycle](std::string message) {
     return Failure{FailureKind::kTiming, cycle, std::move(message)};
   };
-  const bool idle = in_use_ == 0 && !(in.drain && applied_ < jobs_.size());
+  const bool idle = blocks_in_ == 0 && !(in.drain && applied_ < jobs_.size());
   // What is applied in this cycle.
   const std::uint64_t target = std::max(
       seen_, jobs_before_.front() - std::min(jobs_before_.front(), static_cast<std::uint64_t>(shape_.lag)));
@@ -35,12 +36,14 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
     apply(cycle);
   }
   const bool seen = applied_ >= target;
-  const bool ready = usable_ && seen;
+  const std::int64_t held = static_cast<std::int64_t>(passed_before_.front() - left_);
+  const bool slot = held + kUnknown < shape_.fifo;
+  const bool ready = slot && seen;
   if (out.block_ready != ready) {
     return timing(
         fmt::format("input ready is {:d}, with {} of {} slots in use and {} jobs applied of {} that the next "
                     "block must see it should be {:d}",
-                    out.block_ready, in_use_, shape_.fifo, applied_, target, ready));
+                    out.block_ready, held + kUnknown, shape_.fifo, applied_, target, ready));
   }
   const bool visible = !visible_at_.empty() && visible_at_.front() <= cycle;
   if (left_valid != visible) {
@@ -55,12 +58,11 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
     return timing(fmt::format("activity is {}, it should be {}", out.activity, activity));
   }
   if (out.idle != idle) {
-    return timing(fmt::format("idle is {:d}, with {} slots in use and {} jobs not applied it should be {:d}",
-                              out.idle, in_use_, jobs_.size() - applied_, idle));
+    return timing(fmt::format("idle is {:d}, with {} blocks in it and {} jobs not applied it should be {:d}",
+                              out.idle, blocks_in_, jobs_.size() - applied_, idle));
   }
   if (command != nullptr && !ready) {
-    coverage_.hit(!seen ? (usable_ ? "waits for updates" : "waits for updates and a slot")
-                        : "waits for a slot");
+    coverage_.hit(!seen ? (slot ? "waits for updates" : "waits for updates and a slot") : "waits for a slot");
     waited_ = true;
   }
   if (takes) {
@@ -72,14 +74,13 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
   }
   while (!rejected_at_.empty() && rejected_at_.front() <= cycle) {
     rejected_at_.pop_front();
-    --in_use_;
+    --blocks_in_;
   }
   if (left_valid && left_ready) {
     visible_at_.pop_front();
-    --in_use_;
+    --blocks_in_;
     ++left_;
   }
-  usable_ = in_use_ < shape_.fifo;
   return std::nullopt;
 }
 
@@ -87,12 +88,13 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
   static constexpr std::array<const char*, 8> kFunctions = {"NEVER",   "LESS",     "EQUAL",  "LEQUAL",
                                                             "GREATER", "NOTEQUAL", "GEQUAL", "ALWAYS"};
   seen_ = applied_;
-  ++in_use_;
+  ++blocks_in_;
   const bool rejected = command.rejected == command.tiles;
   if (rejected) {
     rejected_at_.push_back(cycle + kRejectLatency);
   } else {
     visible_at_.push_back(cycle + kHiZLatency);
+    ++passed_;
   }
   // Coverage.
   const char* const outcome = rejected ? "all" : command.rejected != 0 ? "some" : "none";
@@ -145,6 +147,8 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
   }
   jobs_before_.push_back(jobs_.size());
   jobs_before_.pop_front();
+  passed_before_.push_back(passed_);
+  passed_before_.pop_front();
 }
 
 /// What becomes of the word, and how close it is to what is done before.
@@ -163,16 +167,12 @@ void HiZTiming::apply(std::uint64_t cycle) {
       word = cleared_word(job.clear_code);
     }
     state = State::kStored;
-    for (std::size_t part = 0; part < parts; ++part) {
-      if ((job.update.touched >> part & 1) != 0) {
-        const HiZWord before = word;
-        put_entry(word, shape_.entries(), job.tile * parts + part, job.update.bounds[part], shape_.bits);
-        coverage_.hit(word.shift > before.shift   ? "range grows"
-                      : word.shift < before.shift ? "range shrinks"
-                      : word.base != before.base  ? "range moves"
-                                                  : "range stays");
-      }
-    }
+    const HiZWord before = word;
+    put_entries(word, shape_.entries(), job.tile * parts, job.update.touched, job.update.bounds, shape_.bits);
+    coverage_.hit(word.shift > before.shift   ? "range grows"
+                  : word.shift < before.shift ? "range shrinks"
+                  : word.base != before.base  ? "range moves"
+                                              : "range stays");
     coverage_.hit(fmt::format("job of {} parts", std::popcount(job.update.touched)));
     for (const Event& event : applies_) {
       for (std::uint64_t before = 1; before <= 3; ++before) {
@@ -198,6 +198,7 @@ void HiZTiming::apply(std::uint64_t cycle) {
 void HiZTiming::cleared(const HiZCommand& command) {
   seen_ = applied_;
   jobs_before_.assign(kHiZDepth, jobs_.size());
+  passed_before_.assign(kHiZDepth, passed_);
   std::fill(states_.begin() + command.first, states_.begin() + command.last + 1, State::kCleared);
 }
 
@@ -208,21 +209,21 @@ void HiZTiming::forget() {
   applied_ = 0;
   seen_ = 0;
   jobs_before_.assign(kHiZDepth, 0);
+  passed_before_.assign(kHiZDepth, passed_);
   words_.assign(static_cast<std::size_t>(shape_.memory_blocks), {});
   states_.assign(static_cast<std::size_t>(shape_.memory_blocks), State::kUnknown);
 }
 
-/// After reset the slots come from a register that has yet to see them.
 void HiZTiming::clear() {
   if (was_reset_) {
-    coverage_.hit(in_use_ != 0 ? "reset with a block under way" : "reset without a block under way");
+    coverage_.hit(blocks_in_ != 0 ? "reset with a block under way" : "reset without a block under way");
     coverage_.hit(applied_ < jobs_.size() ? "reset with jobs not applied" : "reset with all jobs applied");
   }
+  passed_ = left_;
   forget();
   was_reset_ = true;
-  usable_ = false;
   waited_ = false;
-  in_use_ = 0;
+  blocks_in_ = 0;
   rejected_at_.clear();
   visible_at_.clear();
   blocks_.clear();

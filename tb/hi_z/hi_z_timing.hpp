@@ -1,10 +1,10 @@
 /// The cycles of docs/units/hi_z.md, as the pins that follow from them:
 ///
 ///     a(i)       = max(ready(i), a(i-1) + 1, h(k-1) + 1)             seen(k-1) <= i < seen(k)
-///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), a slot of the output FIFO is free)
-///     visible(n) = h(k) + 6
+///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), leave(n + 3 - fifo) + 1)   n: of blocks up to
+///     k-4 visible(n) = h(k) + 6
 ///
-/// A slot is free in the cycle after its block has left; a block that is rejected leaves in h(k) + 4.
+/// A block that is rejected is in the unit until h(k) + 4.
 #pragma once
 
 #include <cstdint>
@@ -55,17 +55,18 @@ class HiZTiming {
 
   HiZShape shape_;
   HiZCoverage& coverage_;
-  bool usable_ = false;  ///< a slot of the FIFO is, in this cycle
   bool was_reset_ = false;
   bool waited_ = false;
-  int in_use_ = 0;  ///< slots
+  int blocks_in_ = 0;
   std::deque<std::uint64_t> rejected_at_;
   std::deque<std::uint64_t> visible_at_;
   std::uint64_t left_ = 0;
   std::vector<Job> jobs_;
   std::deque<std::uint64_t> ready_at_;  ///< of all jobs of the frame
   std::uint64_t applied_ = 0;
+  std::uint64_t passed_ = 0;               ///< blocks that leave, of those taken
   std::deque<std::uint64_t> jobs_before_;  ///< as in HiZ
+  std::deque<std::uint64_t> passed_before_;
   std::uint64_t seen_ = 0;
   // For coverage.
   struct Event {

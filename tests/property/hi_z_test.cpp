@@ -112,7 +112,7 @@ TEST_CASE("hi_z: a word holds every bound, and rounds outwards", "[property]") {
       const CodeBounds bounds{.least = static_cast<std::uint32_t>(std::max<std::int64_t>(middle - reach, 0)),
                               .most = static_cast<std::uint32_t>(std::min(middle + reach, top))};
       exact[i] = bounds;
-      put_entry(word, entries, i, bounds, bits);
+      put_entries(word, entries, i, 1, std::span(&bounds, 1), bits);
       CodeBounds range = exact[0];
       for (const CodeBounds& each : exact) {
         range = unite(range, each);
@@ -126,7 +126,7 @@ TEST_CASE("hi_z: a word holds every bound, and rounds outwards", "[property]") {
       }
       // the same once more changes nothing
       HiZWord again = word;
-      put_entry(again, entries, i, bounds, bits);
+      put_entries(again, entries, i, 1, std::span(&bounds, 1), bits);
       REQUIRE(again == word);
     }
   }

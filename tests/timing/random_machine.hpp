@@ -40,7 +40,7 @@ inline Config random_config(Random& random) {
   config.hi_z.enabled = random.between(0, 2) == 0;
   config.hi_z.bits = pick(random, {4, 8, 12, 32});
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
-  config.hi_z.fifo = mostly_small(random, 2, 16);
+  config.hi_z.fifo = mostly_small(random, 4, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
   config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
 

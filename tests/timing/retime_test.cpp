@@ -126,8 +126,10 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"block_walker.block_size", "16"},
                                                          {"block_walker.trivial_reject", "false"},
                                                          {"tile_walker.trivial_accept", "false"},
-                                                         {"hi_z.enabled", "true"},                {"hi_z.bits", "9"},
-      {"hi_z.lag", "77"},                      {"depth.interpolator", "barycentric"},
+                                                         {"hi_z.enabled", "true"},
+                                                         {"hi_z.bits", "9"},
+                                                         {"hi_z.lag", "77"},
+                                                         {"depth.interpolator", "barycentric"},
                                                          {"late_z", "no_write"},
                                                          {"z_cache.fast_clear", "false"}};
   for (const auto& [key, value] : changes) {

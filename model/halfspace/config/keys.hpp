@@ -56,7 +56,7 @@
         "of a bound of depth; those of a block share a base and a shift", HiZBits)                           \
     MODULE(hi_z., lag, int, 128, range(1, 1024), "tile jobs", function,                                      \
         "a block sees what jobs have written that are at least so many older", HiZLag)                       \
-    MODULE(hi_z., fifo, int, 8, range(2, 16), "blocks", time,                                                \
+    MODULE(hi_z., fifo, int, 12, range(4, 16), "blocks", time,                                               \
         "output FIFO of hi_z", HiZFifo)                                                                      \
   END(hi_z)                                                                                                  \
   BEGIN(tile_walker)                                                                                         \

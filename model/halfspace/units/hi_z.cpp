@@ -71,14 +71,27 @@ HiZ::HiZ(const HiZConfig& config, std::uint32_t blocks) : config_(config) {
   tiles_ = row * row;
   entries_ = tiles_ * static_cast<std::size_t>(config.parts);
   if (config.enabled) {
-    words_.assign(blocks, unknown_word(entries_, config.bits));
-    raising_.resize(blocks * tiles_);
-    lowering_.resize(blocks * tiles_);
+    states_ = zeroed_array<WordState>(blocks);
+    words_ = zeroed_array<HiZWord>(blocks);
+    raising_ = zeroed_array<std::uint16_t>(blocks * tiles_);
+    lowering_ = zeroed_array<std::uint16_t>(blocks * tiles_);
   }
 }
 
 std::uint64_t HiZ::must_retire() const {
   return hi_z_must_see(jobs_before_.front(), static_cast<std::uint64_t>(config_.lag), seen_);
+}
+
+HiZWord HiZ::word(std::uint32_t block) const {
+  switch (states_[block]) {
+    case WordState::kUnknown:
+      break;
+    case WordState::kCleared:
+      return cleared_word(std::prev(clear_codes_.upper_bound(block))->second);
+    case WordState::kStored:
+      return words_[block];
+  }
+  return unknown_word(entries_, config_.bits);
 }
 
 CodeBounds HiZ::bounds(const HiZWord& word, std::size_t tile) const {
@@ -96,6 +109,7 @@ std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, 
   const HiZPlane plane{.z = block.z, .dx = block.z_dx, .dy = block.z_dy, .known = block.z_known != 0};
   std::uint64_t rejected = 0;
   const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
+  const HiZWord stored = word(number);
   const auto row = config_.block_size / config_.tile_size;
   for (std::uint64_t left = state.test ? block.tiles : 0; left != 0; left &= left - 1) {
     const int tile = std::countr_zero(left);
@@ -108,7 +122,7 @@ std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, 
                                       : tile_words<16>(plane, x, y);
     }();
     const bool none =
-        none_passes(state.func, CodeRange(equation, plane, words, state.format), bounds(words_[number], at),
+        none_passes(state.func, CodeRange(equation, plane, words, state.format), bounds(stored, at),
                     lowering_[number * tiles_ + at] == 0, raising_[number * tiles_ + at] == 0);
     rejected |= std::uint64_t{none} << tile;
   }
@@ -136,12 +150,12 @@ void HiZ::see(std::uint64_t jobs) {
     const Flight& flight = flights_.front();
     const HiZUpdate& update = retired_.front();
     const std::size_t at = flight.block * tiles_ + flight.tile;
-    const auto parts = static_cast<std::size_t>(config_.parts);
-    for (std::size_t part = 0; part < parts; ++part) {
-      if ((update.touched >> part & 1) != 0) {
-        put_entry(words_[flight.block], entries_, flight.tile * parts + part, update.bounds[part],
-                  config_.bits);
-      }
+    if (update.touched != 0) {
+      const auto parts = static_cast<std::size_t>(config_.parts);
+      HiZWord put = word(flight.block);
+      put_entries(put, entries_, flight.tile * parts, update.touched, update.bounds, config_.bits);
+      words_[flight.block] = put;
+      states_[flight.block] = WordState::kStored;
     }
     raising_[at] = static_cast<std::uint16_t>(raising_[at] - (flight.moves.up ? 1 : 0));
     lowering_[at] = static_cast<std::uint16_t>(lowering_[at] - (flight.moves.down ? 1 : 0));
@@ -153,7 +167,8 @@ void HiZ::see(std::uint64_t jobs) {
 void HiZ::clear(const HiZSurface& surface, std::uint32_t code) {
   see(jobs_);
   jobs_before_.fill(jobs_);
-  std::fill_n(words_.begin() + surface.first_block, surface.blocks, cleared_word(code));
+  std::fill_n(states_.get() + surface.first_block, surface.blocks, WordState::kCleared);
+  clear_codes_[surface.first_block] = code;
 }
 
 }  // namespace halfspace

@@ -12,10 +12,11 @@
 
 #include <cstdint>
 #include <deque>
-#include <vector>
+#include <map>
 
 #include "halfspace/units/hi_z_bounds.hpp"
 #include "halfspace/units/hi_z_plane.hpp"
+#include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/z_test.hpp"
 
@@ -101,15 +102,21 @@ class HiZ {
     DepthMoves moves;
   };
 
+  /// What the word of a block is; untouched memory says that nothing is known.
+  enum class WordState : std::uint8_t { kUnknown, kCleared, kStored };
+
   void see(std::uint64_t jobs);
+  [[nodiscard]] HiZWord word(std::uint32_t block) const;
   [[nodiscard]] CodeBounds bounds(const HiZWord& word, std::size_t tile) const;
 
   HiZConfig config_;
-  std::size_t tiles_ = 0;    ///< of a block
-  std::size_t entries_ = 0;  ///< of a word
-  std::vector<HiZWord> words_;
-  std::vector<std::uint16_t> raising_;  ///< by tile of a block: jobs in flight that may raise what is stored
-  std::vector<std::uint16_t> lowering_;
+  std::size_t tiles_ = 0;                               ///< of a block
+  std::size_t entries_ = 0;                             ///< of a word
+  LazyArray<WordState> states_;                         ///< by block
+  LazyArray<HiZWord> words_;                            ///< where stored
+  std::map<std::uint32_t, std::uint32_t> clear_codes_;  ///< of the surfaces, by their first blocks
+  LazyArray<std::uint16_t> raising_;  ///< by tile of a block: jobs in flight that may raise what is stored
+  LazyArray<std::uint16_t> lowering_;
   std::uint64_t jobs_ = 0;
   std::uint64_t seen_ = 0;
   std::array<std::uint64_t, kHiZDepth> jobs_before_{};  ///< of the blocks under way, the oldest first

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "halfspace/numerics/depth.hpp"
 
@@ -49,14 +50,18 @@ struct HiZWord {
 /// Every entry is exactly `code`: a block that is cleared.
 constexpr HiZWord cleared_word(std::uint32_t code) { return {.base = code}; }
 
-/// Puts bounds in the place of entry `i` of the first `entries`. The others keep theirs, rounded outwards
-/// where the block's range has grown. The shift is the least with which all fit.
-constexpr void put_entry(HiZWord& word, std::size_t entries, std::size_t i, const CodeBounds& bounds,
-                         int bits) {
+/// Puts `bounds[part]` in the place of entry `first + part` of the first `entries`, for each part that
+/// `parts` has a bit of, one or more. The others keep theirs, rounded outwards where the block's range has
+/// grown. The shift is the least with which all fit.
+constexpr void put_entries(HiZWord& word, std::size_t entries, std::size_t first, std::uint32_t parts,
+                           std::span<const CodeBounds> bounds, int bits) {
   std::array<CodeBounds, kMostHiZEntries> all{};
-  CodeBounds range = bounds;
   for (std::size_t k = 0; k < entries; ++k) {
-    all[k] = k == i ? bounds : word.entry(k);
+    const std::size_t part = k - first;
+    all[k] = part < bounds.size() && (parts >> part & 1) != 0 ? bounds[part] : word.entry(k);
+  }
+  CodeBounds range = all[0];
+  for (std::size_t k = 1; k < entries; ++k) {
     range = unite(range, all[k]);
   }
   int shift = 0;
@@ -73,10 +78,8 @@ constexpr void put_entry(HiZWord& word, std::size_t entries, std::size_t i, cons
 
 /// Nothing is known.
 constexpr HiZWord unknown_word(std::size_t entries, int bits) {
-  HiZWord word;
-  for (std::size_t i = 0; i < entries; ++i) {
-    put_entry(word, entries, i, {}, bits);
-  }
+  HiZWord word{.shift = static_cast<std::uint8_t>(32 - bits)};
+  std::fill_n(word.most.begin(), entries, ~0u >> word.shift);
   return word;
 }
 

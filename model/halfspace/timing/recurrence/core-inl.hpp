@@ -244,8 +244,9 @@ class RecurrenceCore {
   /// hi_z decides the block, when all that it must see has been applied, one job a cycle.
   HWY_INLINE void hi_z(int jobs) {
     const T& visible = block_visible_;
-    const T updated = see(hi_z_must_see(jobs_before_.front(), *memory_->hi_z_lag, seen_), hi_z_next_);
-    const T h = later(later(later(visible, hi_z_next_), updated), fifo<Fifo::kHiZ>().usable(passed_));
+    const T updated = see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
+    const T h = later(later(later(visible, hi_z_next_), updated),
+                      fifo<Fifo::kHiZ>().usable(left_before_.front().blocks + (kHiZDepth - 1)));
     if constexpr (Probe::kLooks) {
       probe_->template split<3>(Stage::kHiZ, hi_z_next_, {visible, updated, h}, 1);
       probe_->note(&PacketTimes::hi_z, h);
@@ -254,8 +255,9 @@ class RecurrenceCore {
     hi_z_out_ = h + (jobs == 0 ? kHiZLatency - 1 : 1);
     block_left(hi_z_next_);
     block_visible_ = h + (kHiZLatency + stall(StallPoint::kHiZ, passed_));
-    std::shift_left(jobs_before_.begin(), jobs_before_.end(), 1);
-    jobs_before_.back() = jobs_ + static_cast<std::uint64_t>(jobs);
+    std::shift_left(left_before_.begin(), left_before_.end(), 1);
+    left_before_.back() = {.jobs = jobs_ + static_cast<std::uint64_t>(jobs),
+                           .blocks = passed_ + (jobs != 0 ? 1 : 0)};
   }
 
   /// Applies jobs up to number `end`, from cycle `from` on; gives the cycle of the last.
@@ -283,10 +285,10 @@ class RecurrenceCore {
       return at;
     }
     // What the next block must see is applied at once, the rest when nothing else is left to do.
-    see(hi_z_must_see(jobs_before_.front(), *memory_->hi_z_lag, seen_), hi_z_next_);
+    see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
     const T from = near(at);
     see(jobs_, from);
-    jobs_before_.fill(jobs_);
+    left_before_.fill({.jobs = jobs_, .blocks = passed_});
     return clock_.setup(later(later(from, update_next_), hi_z_out_));
   }
 
@@ -521,9 +523,13 @@ class RecurrenceCore {
   std::uint64_t culled_ = 0;
   std::uint64_t triangles_ = 0;
   std::uint64_t blocks_ = 0;
-  std::uint64_t passed_ = 0;                            ///< blocks that hi_z left tiles of
-  std::uint64_t seen_ = 0;                              ///< jobs, by hi_z
-  std::array<std::uint64_t, kHiZDepth> jobs_before_{};  ///< at the ends of the last blocks, the oldest first
+  std::uint64_t passed_ = 0;  ///< blocks that hi_z left tiles of
+  std::uint64_t seen_ = 0;    ///< jobs, by hi_z
+  struct Left {
+    std::uint64_t jobs = 0;
+    std::uint64_t blocks = 0;
+  };
+  std::array<Left, kHiZDepth> left_before_{};  ///< hi_z at the ends of the last blocks, the oldest first
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;
   std::uint64_t fills_ = 0;

@@ -39,6 +39,7 @@ void HiZ::begin_frame() {
   next_ = 0;
   next_update_ = 0;
   out_ = 0;
+  last_.fill(false);
 }
 
 Cycle HiZ::see(std::uint64_t end, Cycle from) {
@@ -52,6 +53,9 @@ Cycle HiZ::see(std::uint64_t end, Cycle from) {
   return last;
 }
 
+/// Of the blocks in last_, each has a slot for itself: some already, because they leave.
+Cycle HiZ::slot() { return out->credit(1 + static_cast<int>(std::ranges::count(last_, false))); }
+
 void HiZ::decide() {
   run_.guard([&] {
     for (;;) {
@@ -63,7 +67,7 @@ void HiZ::decide() {
       const Cycle updated = see(unit_.must_retire(), next_);
       meter_.stalled(stall::kHiZNoUpdate, updated);
       meter_.waits_for(stall::kHiZNoCredit);
-      const Cycle at = std::max({visible, next_, updated, out->credit()});
+      const Cycle at = std::max({visible, next_, updated, slot()});
       meter_.stalled(stall::kHiZNoCredit, at);
       run_.clock.wait_until(at);
 
@@ -75,6 +79,8 @@ void HiZ::decide() {
       const HiZSurface place = draw.surface == kNoSurface ? HiZSurface{} : places_[draw.surface];
       token.block.tiles = passage::hi_z(unit_, token.block, token.triangle->depth, place, draw);
       out_ = next_;
+      std::shift_left(last_.begin(), last_.end(), 1);
+      last_.back() = token.block.tiles != 0;
       if (token.block.tiles == 0) {
         out_ = at + kHiZLatency - 1;  // it shows only there
         run_.in_pipe.remove();
@@ -90,6 +96,7 @@ Cycle HiZ::clear(std::uint32_t surface, std::uint32_t code, Cycle idle) {
   see(unit_.must_retire(), next_);  // at once, what the next block must see; the rest when all else is idle
   see(unit_.jobs(), idle);
   unit_.clear(places_[surface], code);
+  last_.fill(false);
   return std::max({idle, next_update_, out_});
 }
 

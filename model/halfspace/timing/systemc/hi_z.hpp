@@ -1,6 +1,7 @@
 /// hi_z as a module, and the way back to it from the units behind.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <systemc>
 
@@ -58,6 +59,9 @@ class HiZ : public sc_core::sc_module {
   void decide();
   /// Applies all jobs before `end`, one a cycle from cycle `from` on; returns the cycle of the last.
   Cycle see(std::uint64_t end, Cycle from);
+  /// The first cycle in which the output FIFO has a slot for the next block, whatever becomes of those
+  /// before.
+  Cycle slot();
 
   RunState& run_;
   StageMeter meter_;
@@ -67,6 +71,7 @@ class HiZ : public sc_core::sc_module {
   Cycle next_ = 0;
   Cycle next_update_ = 0;
   Cycle out_ = 0;
+  std::array<bool, kHiZDepth - 1> last_{};  ///< whether the last blocks left
 };
 
 }  // namespace halfspace::systemc

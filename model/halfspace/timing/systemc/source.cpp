@@ -76,8 +76,8 @@ Cycle Source::drain() {
 }
 
 void Source::end_frame() {
-  const Cycle begin = std::max(drain(), control_.hi_z_out());
-  const Cycle last = depth->flush(begin);
+  const Cycle drained = drain();
+  const Cycle last = depth->flush(std::max(drained, control_.hi_z_out()));
   run_.clock.wait_until(last + 1);
   control_.end_frame(last + 1);
   in_frame_ = false;
