@@ -73,6 +73,7 @@ inline Config random_config(Random& random) {
   config.z_cache.misses_in_flight = mostly_small(random, config.z_cache.parts, 64);
   config.z_cache.write_buffers = mostly_small(random, config.z_cache.parts, 64);
   config.z_cache.fast_clear = random.between(0, 2) != 0;
+  config.z_cache.compression = random.between(0, 2) == 0;
   config.z_cache.clear_tiles = pick(random, {1, 2, 4, 64, 1024});
   config.memory.latency = pick(random, {1, 2, 5, 20, 50, 100, 400, 5000});
   config.memory.read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
@@ -95,6 +96,10 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z = recorded.late_z;
     config.z_cache.fast_clear = recorded.z_cache.fast_clear;
+    config.z_cache.compression = recorded.z_cache.compression;
+    if (config.z_cache.compression) {
+      config.z_cache.parts = recorded.z_cache.parts;  // whose sizes the record has
+    }
     try {
       validate(config);
       return config;

@@ -4,9 +4,25 @@
 #include <cstdint>
 
 #include "halfspace/timing/record/frame_record.hpp"
+#include "halfspace/units/z_codec.hpp"
 #include "random_machine.hpp"
 
 namespace halfspace::testing {
+
+/// What the parts of a tile may be coded by.
+inline ZShifts random_shifts(Random& random, const Config& config, std::uint32_t sample_bytes) {
+  const int tile = config.tile_walker.tile_size;
+  const int bytes = tile * tile / config.z_cache.parts * static_cast<int>(sample_bytes);
+  ZShifts shifts;
+  for (int part = 0; config.z_cache.compression && part < config.z_cache.parts; ++part) {
+    int shift = static_cast<int>(random.between(0, kMostCodedShift));
+    while (shift > 0 && bytes >> shift < kLeastCodedBytes) {
+      --shift;
+    }
+    shifts.set(part, shift);
+  }
+  return shifts;
+}
 
 /// Packets as no frame has them: walks, draws and gaps of all lengths.
 inline FrameRecord random_record(Random& random, const Config& config) {
@@ -48,7 +64,8 @@ inline FrameRecord random_record(Random& random, const Config& config) {
           const auto touched = static_cast<std::uint8_t>(random.between(1, bands));
           packets.accesses.emplace_back(
               static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched,
-              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))));
+              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))),
+              random_shifts(random, config, record.surfaces[0].sample_bytes));
         }
       }
       packets.triangles.push_back(triangle);

@@ -42,7 +42,8 @@ inline std::string record_difference(const FrameRecord& ours, const FrameRecord&
              "jobs", [](const FrameRecord& record) { return record.packets.jobs; },
              [](StreamJob quads) { return quads; }) +
          list(
-             "accesses", [](const FrameRecord& record) { return record.packets.accesses; }, word);
+             "accesses", [](const FrameRecord& record) { return record.packets.accesses; }, word,
+             [](const StreamAccess& access) { return access.shifts().bits(); });
 }
 
 /// The same frame, recorded through both cores.

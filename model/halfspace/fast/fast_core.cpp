@@ -101,6 +101,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }
+  if (config.z_cache.compression) {
+    return "z_cache.compression = true";
+  }
   if (config.tile_walker.tile_size > 8) {
     return "tile_walker.tile_size = 16";
   }

@@ -214,15 +214,17 @@ class InOrderRun {
     const int parts = config_.z_cache.parts;
     const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, *draw_, parts);
     const std::uint8_t written = passage::written_parts<TileSize>(passed, *draw_, parts);
-    const ZMisses misses =
-        passage::z_cache(z_cache_, places_[draw_->surface], coverage, touched, written, *draw_);
+    const ZSurface& place = places_[draw_->surface];
+    const ZShifts shifts = passage::coded_parts<TileSize>(
+        surface_->codes.tile(coverage.tile_x, coverage.tile_y), written, place, config_);
+    const ZMisses misses = passage::z_cache(z_cache_, place, coverage, touched, written, shifts, *draw_);
     if (stream_) {
       stream_->accessed(misses.parts());
       if (stream_->wants_accesses()) {
         constexpr int kBands = stream_bands(TileSize);
         stream_->access({coverage.tile_x, coverage.tile_y,
                          passage::touched_parts<TileSize>(coverage, *draw_, kBands),
-                         passage::written_parts<TileSize>(passed, *draw_, kBands)});
+                         passage::written_parts<TileSize>(passed, *draw_, kBands), shifts});
       }
     }
   }

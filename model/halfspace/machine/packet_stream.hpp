@@ -37,21 +37,27 @@ class StreamBlock {
 using StreamJob = std::uint8_t;
 
 /// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
-/// half in tiles of 4 x 4), that it touches and writes.
+/// half in tiles of 4 x 4), that it touches and writes; and by how much the parts that it writes are coded
+/// then, on the machine that the stream is of.
 class StreamAccess {
  public:
   StreamAccess() = default;
-  StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written)
-      : word_(tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28) {}
-  explicit StreamAccess(std::uint32_t word) : word_(word) {}
+  StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written,
+               ZShifts shifts = {})
+      : word_(tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28),
+        shifts_(shifts) {}
+  StreamAccess(std::uint32_t word, ZShifts shifts) : word_(word), shifts_(shifts) {}
   [[nodiscard]] std::uint32_t tile_x() const { return word_ & 0xFFF; }
   [[nodiscard]] std::uint32_t tile_y() const { return word_ >> 12 & 0xFFF; }
   [[nodiscard]] std::uint8_t touched() const { return word_ >> 24 & 0xF; }
   [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(word_ >> 28); }
+  [[nodiscard]] ZShifts shifts() const { return shifts_; }
+  /// All but the shifts.
   [[nodiscard]] std::uint32_t word() const { return word_; }
 
  private:
   std::uint32_t word_ = 0;
+  ZShifts shifts_;
 };
 
 /// Bands of a tile that a StreamAccess tells apart.

@@ -78,6 +78,14 @@ std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const
   return place_surfaces(stream_surfaces(surfaces), config.tile_walker.tile_size, config.z_cache.parts);
 }
 
+ZCodecShape z_codec_shape(const ZSurface& surface, const Config& config) {
+  const int tile = config.tile_walker.tile_size;
+  const int height = tile / config.z_cache.parts;
+  return {.width = tile,
+          .height = height,
+          .sample_bytes = static_cast<int>(surface.line_bytes) / (tile * height)};
+}
+
 HiZConfig hi_z_config(const Config& config) {
   return {.enabled = config.hi_z.enabled,
           .bits = config.hi_z.bits,

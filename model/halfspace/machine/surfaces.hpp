@@ -10,6 +10,7 @@
 #include "halfspace/machine/packet_stream.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/hi_z.hpp"
+#include "halfspace/units/z_codec.hpp"
 #include "halfspace/units/z_line.hpp"
 
 namespace halfspace {
@@ -35,6 +36,9 @@ std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces)
 /// Where the tiles of each surface lie in memory; by surface number. `parts`: lines of a tile.
 std::vector<ZSurface> place_surfaces(const std::vector<StreamSurface>& surfaces, int tile_size, int parts);
 std::vector<ZSurface> place_surfaces(const std::vector<Surface>& surfaces, const Config& config);
+
+/// Of a line of the surface, for z_codec.
+ZCodecShape z_codec_shape(const ZSurface& surface, const Config& config);
 
 HiZConfig hi_z_config(const Config& config);
 

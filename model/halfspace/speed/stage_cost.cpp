@@ -136,9 +136,11 @@ class PrefixRun {
                               *draw_, surface_);
       if (kLast >= Last::kZCache && touches_depth(draw_->early_z)) {
         const int parts = config_.z_cache.parts;
-        drop(passage::z_cache(z_cache_, places_[draw_->surface], coverage,
-                              passage::touched_parts<TileSize>(coverage, *draw_, parts),
-                              passage::written_parts<TileSize>(passed, *draw_, parts), *draw_));
+        const ZSurface& place = places_[draw_->surface];
+        const std::uint8_t written = passage::written_parts<TileSize>(passed, *draw_, parts);
+        drop(passage::z_cache(z_cache_, place, coverage,
+                              passage::touched_parts<TileSize>(coverage, *draw_, parts), written,
+                              passage::coded_parts<TileSize>(stored, written, place, config_), *draw_));
       }
     }
   }

@@ -24,6 +24,11 @@ inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 inline constexpr int kHiZEmptyLatency = 2;
 inline constexpr int kHiZUpdateLatency = 5;
 
+/// From a line that enters the write buffer until memory may take it, and from its last bytes from memory
+/// until it is there, where lines are coded.
+inline constexpr int kZEncodeLatency = 6;
+inline constexpr int kZDecodeLatency = 4;
+
 /// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
 inline constexpr std::size_t kMostCredits = 64;
 

@@ -22,10 +22,10 @@ namespace halfspace {
 struct ZMiss {
   std::uint32_t line = 0;           ///< of memory
   std::uint32_t victim = kNoZLine;  ///< of memory, the line that had to leave
-  std::uint16_t bytes = 0;          ///< of the line
-  std::uint16_t victim_bytes = 0;
-  bool fetch = false;       ///< asked for; else made from the clear value
-  bool write_back = false;  ///< the victim was dirty
+  std::uint16_t bytes = 0;          ///< that memory has of the line
+  std::uint16_t victim_bytes = 0;   ///< that it gets of the victim
+  bool fetch = false;               ///< asked for; else made from the clear value
+  bool write_back = false;          ///< the victim was dirty
 };
 
 /// The misses of a burst, in order of parts.
@@ -43,9 +43,10 @@ class ZCache {
   ZCache(const ZCacheShape& shape, std::uint32_t memory_lines)
       : shape_(shape), tags_(shape), lines_(shape, memory_lines) {}
 
-  /// A burst that touches the parts `touched` of a tile and writes to `written` of them.
+  /// A burst that touches the parts `touched` of a tile and writes to `written` of them, which are coded by
+  /// `shifts` then.
   ZMisses access(const ZSurface& surface, std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched,
-                 std::uint8_t written) {
+                 std::uint8_t written, ZShifts shifts = {}) {
     ZMisses misses;
     for (int i = 0; i < shape_.parts; ++i) {
       if ((touched >> i & 1) == 0) {
@@ -56,15 +57,16 @@ class ZCache {
       if (!found.hit) {
         const bool fetch = !lines_.cleared(line);
         const ZLines::Victim victim = lines_.replace(found.slot, line, surface.line_bytes);
-        misses.part[misses.count++] = {.line = line,
-                                       .victim = victim.line,
-                                       .bytes = static_cast<std::uint16_t>(surface.line_bytes),
-                                       .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
-                                       .fetch = fetch,
-                                       .write_back = victim.dirty};
+        misses.part[misses.count++] = {
+            .line = line,
+            .victim = victim.line,
+            .bytes = static_cast<std::uint16_t>(lines_.stored_bytes(line, surface.line_bytes)),
+            .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
+            .fetch = fetch,
+            .write_back = victim.dirty};
       }
       if ((written >> i & 1) != 0) {
-        lines_.mark_written(found.slot);
+        lines_.mark_written(found.slot, shifts.of(i));
       }
     }
     return misses;

@@ -37,6 +37,21 @@ struct ZSurface {
   }
 };
 
+/// By how much the parts of a tile are coded, see units/z_codec.hpp: two bits each.
+class ZShifts {
+ public:
+  constexpr ZShifts() = default;
+  constexpr explicit ZShifts(std::uint8_t bits) : bits_(bits) {}
+  [[nodiscard]] constexpr int of(int part) const { return bits_ >> (2 * part) & 3; }
+  constexpr void set(int part, int shift) {
+    bits_ = static_cast<std::uint8_t>((bits_ & ~(3 << (2 * part))) | shift << (2 * part));
+  }
+  [[nodiscard]] constexpr std::uint8_t bits() const { return bits_; }
+
+ private:
+  std::uint8_t bits_ = 0;
+};
+
 /// Bytes of a sample in memory.
 constexpr int sample_bytes(DepthFormat format) { return format == DepthFormat::kUnorm16 ? 2 : 4; }
 

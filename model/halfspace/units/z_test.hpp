@@ -9,6 +9,7 @@
 
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/tile_mask.hpp"
 #include "halfspace/units/z_line.hpp"
@@ -51,34 +52,46 @@ class ZLines {
  public:
   struct Victim {
     std::uint32_t line = kNoZLine;  ///< of memory; none where the slot was free
-    std::uint32_t bytes = 0;
+    std::uint32_t bytes = 0;        ///< as memory has it, or is to have it
     bool dirty = false;
   };
 
   ZLines() = default;
   /// `memory_lines`: of all surfaces.
   ZLines(const ZCacheShape& shape, std::uint32_t memory_lines)
-      : slots_(static_cast<std::size_t>(shape.lines)), cleared_(memory_lines) {}
+      : slots_(static_cast<std::size_t>(shape.lines)),
+        cleared_(memory_lines),
+        shifts_(zeroed_array<std::uint8_t>(memory_lines)) {}
 
   /// The line of memory is only marked cleared, so there is nothing to fetch.
   [[nodiscard]] bool cleared(std::uint32_t line) const { return cleared_[line]; }
 
-  /// Puts a line into a slot. A dirty victim is written back by the caller; it is then stored.
-  Victim replace(std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
-    const Victim victim = slots_[slot];
-    if (victim.dirty) {
-      cleared_[victim.line] = false;
-    }
-    slots_[slot] = {.line = line, .bytes = bytes, .dirty = false};
-    return victim;
+  /// Bytes of a line in memory that has `line_bytes` where it is not coded.
+  [[nodiscard]] std::uint32_t stored_bytes(std::uint32_t line, std::uint32_t line_bytes) const {
+    return line_bytes >> shifts_[line];
   }
 
-  void mark_written(std::uint32_t slot) { slots_[slot].dirty = true; }
+  /// Puts a line of `line_bytes` into a slot. A dirty victim is written back by the caller; it is then
+  /// stored.
+  Victim replace(std::uint32_t slot, std::uint32_t line, std::uint32_t line_bytes) {
+    const Slot victim = slots_[slot];
+    if (victim.dirty) {
+      store(victim);
+    }
+    slots_[slot] = {.line = line, .line_bytes = line_bytes, .shift = 0, .dirty = false};
+    return {.line = victim.line, .bytes = victim.bytes(), .dirty = victim.dirty};
+  }
+
+  /// `shift`: of the line as it is now, see units/z_codec.hpp.
+  void mark_written(std::uint32_t slot, int shift) {
+    slots_[slot].shift = static_cast<std::uint8_t>(shift);
+    slots_[slot].dirty = true;
+  }
 
   /// Marks the lines `first` to `last` of memory cleared, and drops them from the cache, dirty or not.
   void clear(std::uint32_t first, std::uint32_t last) {
     std::fill(cleared_.begin() + first, cleared_.begin() + last + 1, true);  // by words
-    for (Victim& slot : slots_) {
+    for (Slot& slot : slots_) {
       if (slot.line >= first && slot.line <= last) {
         slot = {};
       }
@@ -90,16 +103,31 @@ class ZLines {
   void flush(Visit&& visit) {
     for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
       if (slots_[slot].dirty) {
-        visit(slot, slots_[slot].line, slots_[slot].bytes);
-        cleared_[slots_[slot].line] = false;
+        visit(slot, slots_[slot].line, slots_[slot].bytes());
+        store(slots_[slot]);
         slots_[slot].dirty = false;
       }
     }
   }
 
  private:
-  std::vector<Victim> slots_;
+  struct Slot {
+    std::uint32_t line = kNoZLine;
+    std::uint32_t line_bytes = 0;
+    std::uint8_t shift = 0;
+    bool dirty = false;
+
+    [[nodiscard]] std::uint32_t bytes() const { return line_bytes >> shift; }
+  };
+
+  void store(const Slot& slot) {
+    cleared_[slot.line] = false;
+    shifts_[slot.line] = slot.shift;
+  }
+
+  std::vector<Slot> slots_;
   std::vector<bool> cleared_;
+  LazyArray<std::uint8_t> shifts_;  ///< of lines in memory, by which they are coded
 };
 
 }  // namespace halfspace

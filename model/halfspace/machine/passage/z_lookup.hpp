@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstdint>
 
+#include "halfspace/config/config.hpp"
 #include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/units/z_cache.hpp"
 
 namespace halfspace::passage {
@@ -20,6 +22,24 @@ std::uint8_t touched_parts(const Coverage& coverage, const DrawContext& draw, in
 template <int TileSize>
 std::uint8_t written_parts(const TileMask& passed, const DrawContext& draw, int parts) {
   return draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0};
+}
+
+/// By how much the parts that a burst wrote to are coded, given the tile's codes (TileSize^2, row order); 0
+/// where lines are not coded.
+template <int TileSize>
+ZShifts coded_parts(const std::uint32_t* codes, std::uint8_t written, const ZSurface& surface,
+                    const Config& config) {
+  ZShifts shifts;
+  if (config.z_cache.compression) {
+    const ZCodecShape shape = z_codec_shape(surface, config);
+    for (int part = 0; part < config.z_cache.parts; ++part) {
+      if ((written >> part & 1) != 0) {
+        const auto samples = static_cast<std::size_t>(shape.samples());
+        shifts.set(part, z_coded_shift({codes + static_cast<std::size_t>(part) * samples, samples}, shape));
+      }
+    }
+  }
+  return shifts;
 }
 
 /// Counts a burst that touched `touched` parts, and the lines that moved for it.
@@ -38,8 +58,8 @@ inline void count_z_cache(EarlyZCounters& counters, std::uint8_t touched, const 
 /// Both halves of the z cache at once, for engines that take one burst after the other through lookup and
 /// test. `touched` must not be 0.
 inline ZMisses z_cache(ZCache& cache, const ZSurface& surface, const Coverage& coverage, std::uint8_t touched,
-                       std::uint8_t written, DrawContext& draw) {
-  const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, touched, written);
+                       std::uint8_t written, ZShifts shifts, DrawContext& draw) {
+  const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, touched, written, shifts);
   count_z_cache(draw.counters.early_z, touched, misses);
   return misses;
 }

@@ -10,12 +10,13 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/compression.hpp"
+#include "halfspace/units/z_codec.hpp"
 
 namespace halfspace {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x43525348;  // "HSRC"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 // Members of a list in the file, one word each.
 constexpr auto kSurfaceWords =
@@ -133,6 +134,15 @@ void check_access(const Reader& reader, const FrameRecord& record, const StreamS
     reader.fail(fmt::format("a burst that touches bands {:04b} and writes {:04b}", access.touched(),
                             access.written()));
   }
+  const Config& config = record.config;
+  const int samples = config.tile_walker.tile_size * config.tile_walker.tile_size / config.z_cache.parts;
+  const int bytes = samples * static_cast<int>(surface.sample_bytes);
+  for (int part = 0; part < kMaxZParts; ++part) {
+    const int shift = access.shifts().of(part);
+    if (shift != 0 && (!config.z_cache.compression || bytes >> shift < kLeastCodedBytes)) {
+      reader.fail(fmt::format("a line of {} bytes in {}", bytes, bytes >> shift));
+    }
+  }
 }
 
 /// Everything the replay relies on: that lists are as long as others say, and numbers in range.
@@ -211,7 +221,10 @@ void write_record(const std::filesystem::path& path, const FrameRecord& record) 
   writer.list(record.packets.triangles, [&](const StreamTriangle& t) { put_members(t, kTriangleWords); });
   writer.list(record.packets.blocks, [&](const StreamBlock& b) { writer.word(b.word()); });
   writer.list(record.packets.jobs, [&](const StreamJob& j) { writer.word(j); });
-  writer.list(record.packets.accesses, [&](const StreamAccess& a) { writer.word(a.word()); });
+  writer.list(record.packets.accesses, [&](const StreamAccess& a) {
+    writer.word(a.word());
+    writer.word(a.shifts().bits());
+  });
   write_bytes(path, compress_gzip(writer.bytes()));
 }
 
@@ -253,7 +266,10 @@ FrameRecord parse_record(std::span<const std::byte> bytes, const std::string& na
   record.packets.blocks = reader.list<StreamBlock>(1, [&] { return StreamBlock(reader.word()); });
   record.packets.jobs =
       reader.list<StreamJob>(1, [&] { return static_cast<StreamJob>(std::min(reader.word(), 0xFFu)); });
-  record.packets.accesses = reader.list<StreamAccess>(1, [&] { return StreamAccess(reader.word()); });
+  record.packets.accesses = reader.list<StreamAccess>(2, [&] {
+    const std::uint32_t word = reader.word();
+    return StreamAccess(word, ZShifts(static_cast<std::uint8_t>(std::min(reader.word(), 0xFFu))));
+  });
   reader.end();
   check(reader, record);
   return record;

@@ -56,10 +56,10 @@ std::uint64_t longest_time(const FrameWork& work, const Config& config) {
   const std::uint64_t each_triangle = through + m.setup_interval + 4;
   time += work.triangles * each_triangle + work.blocks;
   for (std::size_t i = 0; i < work.fetched.size(); ++i) {
-    time += work.fetched[i] * (m.memory_latency + m.read_cycles[i] + 4) +
-            work.written_back[i] * (m.write_cycles[i] + 4);
+    time += work.fetched[i] * (m.memory_latency + m.read_cycles[i] + m.decode_latency + 4) +
+            work.written_back[i] * (m.write_cycles[i] + m.encode_latency + 4);
   }
-  return time + work.flushed * (m.write_cycles.back() + 4);
+  return time + work.flushed * (m.write_cycles.back() + m.encode_latency + 4);
 }
 
 }  // namespace halfspace

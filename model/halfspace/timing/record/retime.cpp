@@ -16,6 +16,13 @@ namespace halfspace {
 
 void check_retimable(const FrameRecord& record, const Config& config) {
   if (same_packets(record.config, config)) {
+    const int parts = record.config.z_cache.parts;
+    if (record.config.z_cache.compression && config.z_cache.parts != parts) {
+      throw InputError(fmt::format(
+          "configuration key 'z_cache.parts' is {}, the record of {} has the sizes of coded lines "
+          "for {}; legal: {}, or a new record",
+          config.z_cache.parts, record.name, parts, parts));
+    }
     return;
   }
   const std::vector<ConfigKey> recorded = config_keys(record.config);
@@ -137,7 +144,8 @@ std::uint64_t longest_job(const Config& config, std::uint32_t most_empty) {
   // up to two walks, the job's own and that after the last job before
   return 2 * (std::uint64_t{most_empty} + 1) + static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 +
          m.quad_beats[quads] + m.test_beats[quads] +
-         parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + 8);
+         parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + m.decode_latency +
+                  m.encode_latency + 8);
 }
 
 }  // namespace detail

@@ -78,6 +78,8 @@ class LaneMachines {
     fill(all.edge_latency, [](const auto& m) { return m.edge_latency; });
     fill(all.lookup_latency, [](const auto& m) { return m.lookup_latency; });
     fill(all.memory_latency, [](const auto& m) { return m.memory_latency; });
+    fill(all.decode_latency, [](const auto& m) { return m.decode_latency; });
+    fill(all.encode_latency, [](const auto& m) { return m.encode_latency; });
   }
 
  private:

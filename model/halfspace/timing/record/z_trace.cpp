@@ -126,7 +126,7 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
         }
         const StreamAccess& a = packets.accesses[access];
         const ZMisses misses = cache.access(places[segment.surface], a.tile_x(), a.tile_y(),
-                                            folded[a.touched()], folded[a.written()]);
+                                            folded[a.touched()], folded[a.written()], a.shifts());
         for (const ZMiss& miss : misses.parts()) {
           trace.z.misses.push_back(miss);
           trace.z.burst.push_back(access);

@@ -443,11 +443,11 @@ class RecurrenceCore {
         continue;
       }
       ++sent;
-      there =
+      filled_next_ =
           later(r + machine().memory_latency, filled_next_) + machine().read_cycles[log2_bytes(part.bytes)];
-      filled_next_ = there;
+      there = later(there, filled_next_ + machine().decode_latency);
       if constexpr (Probe::kLooks) {
-        probe_->read(machine().read_cycles[log2_bytes(part.bytes)], there);
+        probe_->read(machine().read_cycles[log2_bytes(part.bytes)], filled_next_);
       }
     }
     f_next_ = later(moved, last);
@@ -485,7 +485,7 @@ class RecurrenceCore {
   /// A line enters the write buffer and may move to memory from cycle `from` on.
   HWY_INLINE void write(const T& from, std::uint32_t bytes) {
     const T cycles = machine().write_cycles[log2_bytes(bytes)];
-    written_next_ = later(from, written_next_) + cycles;
+    written_next_ = later(from + machine().encode_latency, written_next_) + cycles;
     fifo<Fifo::kWriteBuffers>().give(writes_++, written_next_);
     if constexpr (Probe::kLooks) {
       probe_->write(cycles, written_next_);

@@ -49,6 +49,8 @@ struct Machine {
   T edge_latency;
   T lookup_latency;  ///< from the lookup to the test
   T memory_latency;
+  T decode_latency;  ///< from the last bytes of a line until it is there
+  T encode_latency;  ///< from the write buffer until memory may take a line
 };
 
 inline Machine<std::uint64_t> machine(const Config& config) {
@@ -68,6 +70,8 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
   m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
+  m.decode_latency = config.z_cache.compression ? kZDecodeLatency : 0;
+  m.encode_latency = config.z_cache.compression ? kZEncodeLatency : 0;
   return m;
 }
 

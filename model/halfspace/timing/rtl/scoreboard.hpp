@@ -313,8 +313,9 @@ class Scoreboard {
     if (const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, draw, parts)) {
       update = hi_z_update<TileSize>(stored, touched, parts);
       const std::uint8_t written = passage::written_parts<TileSize>(passed, draw, parts);
-      const ZMisses misses =
-          passage::z_cache(z_cache_, run_.places[draw.surface], coverage, touched, written, draw);
+      const ZSurface& place = run_.places[draw.surface];
+      const ZShifts shifts = passage::coded_parts<TileSize>(stored, written, place, run_.config);
+      const ZMisses misses = passage::z_cache(z_cache_, place, coverage, touched, written, shifts, draw);
       for (const ZMiss& miss : misses.parts()) {
         if (miss.fetch) {
           memory_.expect_read(miss.line);

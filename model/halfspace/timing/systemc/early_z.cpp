@@ -33,9 +33,9 @@ void EarlyZ::read_surface(std::uint32_t surface, TiledImage<std::uint32_t>& code
       if (cache.lines.cleared(line)) {
         to = std::fill_n(to, cache.memory.layout.samples(line), cache.clear_code[surface]);
       } else {
-        bytes.resize(cache.memory.layout.line_bytes(line));
+        bytes.resize(cache.stored_bytes(line));
         cache.memory.access_in_no_time(tlm::TLM_READ_COMMAND, line, bytes);
-        cache.memory.layout.unpack(line, bytes, line_codes);
+        cache.unpack(line, bytes, line_codes);
         to = std::copy(line_codes.begin(), line_codes.end(), to);
       }
     }

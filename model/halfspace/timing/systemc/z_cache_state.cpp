@@ -1,5 +1,6 @@
 #include "halfspace/timing/systemc/z_cache_state.hpp"
 
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/timing/contract.hpp"
 
 namespace halfspace::systemc {
@@ -40,18 +41,48 @@ std::uint32_t ZCacheState::line_of(const PendingToken& token, int part) const {
                                               part);
 }
 
-void ZCacheState::count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t line, int bytes_per_cycle,
+void ZCacheState::count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t bytes, int bytes_per_cycle,
                                  const DrawContext* draw) {
-  const int bytes = static_cast<int>(memory.layout.line_bytes(line));
-  const auto cycles = static_cast<std::uint64_t>(transfer_cycles(bytes, bytes_per_cycle));
+  const auto cycles = static_cast<std::uint64_t>(transfer_cycles(static_cast<int>(bytes), bytes_per_cycle));
   run.book.count(draw, [&](CycleStats& stats) { stats.*channel += cycles; });
 }
 
-void ZCacheState::send(DrawContext* draw, std::uint32_t line, std::uint32_t slot, Cycle at) {
+void ZCacheState::send(DrawContext* draw, std::uint32_t line, std::uint32_t bytes, std::uint32_t slot,
+                       Cycle at) {
   ++writes_sent;
   write_buffers.use_credit();
   write_buffers.put({.draw = draw, .line = line, .number = writes_sent, .codes = codes[slot]}, at);
-  count_transfer(&CycleStats::write_busy, line, run.config.memory.write_bytes, draw);
+  count_transfer(&CycleStats::write_busy, bytes, run.config.memory.write_bytes, draw);
+}
+
+std::uint32_t ZCacheState::stored_bytes(std::uint32_t line) const {
+  return lines.stored_bytes(line, memory.layout.line_bytes(line));
+}
+
+void ZCacheState::pack(std::uint32_t line, std::span<const std::uint32_t> line_codes,
+                       std::vector<std::uint8_t>& bytes) const {
+  if (run.config.z_cache.compression) {
+    z_encode(line_codes, shape(line), bytes);
+  } else {
+    memory.layout.pack(line, line_codes, bytes);
+  }
+}
+
+void ZCacheState::unpack(std::uint32_t line, std::span<const std::uint8_t> bytes,
+                         std::vector<std::uint32_t>& line_codes) const {
+  if (run.config.z_cache.compression) {
+    z_decode(bytes, shape(line), line_codes);
+  } else {
+    memory.layout.unpack(line, bytes, line_codes);
+  }
+}
+
+int ZCacheState::shift(std::uint32_t line, std::span<const std::uint32_t> line_codes) const {
+  return run.config.z_cache.compression ? z_coded_shift(line_codes, shape(line)) : 0;
+}
+
+ZCodecShape ZCacheState::shape(std::uint32_t line) const {
+  return z_codec_shape(run.places[memory.layout.surface(line)], run.config);
 }
 
 }  // namespace halfspace::systemc

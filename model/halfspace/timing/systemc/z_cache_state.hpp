@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <systemc>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "halfspace/timing/systemc/depth_memory.hpp"
 #include "halfspace/timing/systemc/tokens.hpp"
 #include "halfspace/units/z_cache.hpp"
+#include "halfspace/units/z_codec.hpp"
 
 namespace halfspace::systemc {
 
@@ -26,11 +28,20 @@ struct ZCacheState {
   void begin_frame();
   /// Part `part` of the burst's tile in memory.
   [[nodiscard]] std::uint32_t line_of(const PendingToken& token, int part) const;
-  /// Counts the cycles in which a channel of memory moves a line for `draw`.
-  void count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t line, int bytes_per_cycle,
+  /// Counts the cycles in which a channel of memory moves a line of `bytes` for `draw`.
+  void count_transfer(std::uint64_t CycleStats::*channel, std::uint32_t bytes, int bytes_per_cycle,
                       const DrawContext* draw);
-  /// Puts the line in a slot into the write buffer, in this cycle, which is `at`.
-  void send(DrawContext* draw, std::uint32_t line, std::uint32_t slot, Cycle at);
+  /// Puts the line in a slot into the write buffer, in this cycle, which is `at`; it has `bytes` in memory.
+  void send(DrawContext* draw, std::uint32_t line, std::uint32_t bytes, std::uint32_t slot, Cycle at);
+
+  // Lines in memory.
+  [[nodiscard]] std::uint32_t stored_bytes(std::uint32_t line) const;
+  void pack(std::uint32_t line, std::span<const std::uint32_t> codes, std::vector<std::uint8_t>& bytes) const;
+  void unpack(std::uint32_t line, std::span<const std::uint8_t> bytes,
+              std::vector<std::uint32_t>& codes) const;
+  /// By how much a line would be coded.
+  [[nodiscard]] int shift(std::uint32_t line, std::span<const std::uint32_t> codes) const;
+  [[nodiscard]] ZCodecShape shape(std::uint32_t line) const;
 
   RunState& run;
   std::uint64_t base;  ///< address of the first surface

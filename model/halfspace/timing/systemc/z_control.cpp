@@ -34,7 +34,7 @@ Cycle ZControl::flush(Cycle begin) {
   z_flush(cache_.lines, [&](std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
     const Cycle at = std::max(next + (slot - next_slot), cache_.write_buffers.credit(1));
     run_.clock.wait_until(at);
-    cache_.send(nullptr, line, slot, at);
+    cache_.send(nullptr, line, bytes, slot, at);
     next = at + 1;
     next_slot = slot + 1;
     ++run_.result.flushed_lines;

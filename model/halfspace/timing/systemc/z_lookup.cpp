@@ -99,18 +99,20 @@ Cycle ZLookup::resolve(int part, Cycle earliest) {
   return at;
 }
 
-/// Asks memory for a line, in this cycle. Returns the one in which the last of it comes.
+/// Asks memory for a line, in this cycle. Returns the one in which all of it is there.
 Cycle ZLookup::request(std::uint32_t line) {
   cache_.fill_buffers.use_credit();
-  bytes_.resize(cache_.memory.layout.line_bytes(line));
+  bytes_.resize(cache_.stored_bytes(line));
   sc_core::sc_time delay;
   cache_.memory.access(tlm::TLM_READ_COMMAND, line, bytes_, delay);
   const Cycle filled = run_.clock.after(delay);
-  cache_.count_transfer(&CycleStats::read_busy, line, run_.config.memory.read_bytes, looked_up_.draw);
+  cache_.count_transfer(&CycleStats::read_busy, cache_.stored_bytes(line), run_.config.memory.read_bytes,
+                        looked_up_.draw);
   FillToken fill{.draw = looked_up_.draw, .codes = {}};
-  cache_.memory.layout.unpack(line, bytes_, fill.codes);
-  cache_.fill_buffers.put(std::move(fill), filled);
-  return filled;
+  cache_.unpack(line, bytes_, fill.codes);
+  const Cycle decoded = filled + (run_.config.z_cache.compression ? kZDecodeLatency : 0);
+  cache_.fill_buffers.put(std::move(fill), decoded);
+  return decoded;
 }
 
 }  // namespace halfspace::systemc

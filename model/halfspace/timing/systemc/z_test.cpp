@@ -77,6 +77,7 @@ void ZTest::move_lines(const PendingToken& token, Cycle at) {
     const auto i = static_cast<std::size_t>(part);
     const std::uint32_t line = cache_.line_of(token, part);
     const ZLines::Victim& victim = victims_[i];
+    const std::uint32_t stored = cache_.stored_bytes(line);
     take_victim(victim, token.slot[i], token.draw, at);
     const bool fetched = (token.fetched >> part & 1) != 0;
     std::vector<std::uint32_t>& codes = cache_.codes[token.slot[i]];
@@ -87,7 +88,7 @@ void ZTest::move_lines(const PendingToken& token, Cycle at) {
     }
     misses.part[misses.count++] = {.line = line,
                                    .victim = victim.line,
-                                   .bytes = static_cast<std::uint16_t>(cache_.memory.layout.line_bytes(line)),
+                                   .bytes = static_cast<std::uint16_t>(stored),
                                    .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
                                    .fetch = fetched,
                                    .write_back = victim.dirty};
@@ -102,7 +103,7 @@ void ZTest::take_victim(const ZLines::Victim& victim, std::uint32_t slot, DrawCo
   ZCacheState::Exit& exit = cache_.exits[victim.line];
   exit.looked_up = false;
   if (victim.dirty) {
-    cache_.send(draw, victim.line, slot, at);
+    cache_.send(draw, victim.line, victim.bytes, slot, at);
     exit.write = cache_.writes_sent;
   } else {
     exit.left = at + 1;
@@ -132,7 +133,8 @@ TestedToken ZTest::test(PendingToken& token) {
   for_each_touched([&](std::size_t part, auto line, auto tile) {
     if ((written >> part & 1) != 0) {
       std::copy_n(tile, samples, line);
-      cache_.lines.mark_written(token.slot[part]);
+      cache_.lines.mark_written(token.slot[part], cache_.shift(cache_.line_of(token, static_cast<int>(part)),
+                                                               cache_.codes[token.slot[part]]));
     }
   });
   if (run_.config.hi_z.enabled) {
@@ -147,11 +149,12 @@ TestedToken ZTest::test(PendingToken& token) {
 
 void ZTest::write_back() {
   run_.guard([&] {
+    const Cycle encode = run_.config.z_cache.compression ? kZEncodeLatency : 0;
     for (;;) {
-      const Cycle at = std::max(cache_.write_buffers.visible(), cache_.next_write);
+      const Cycle at = std::max(cache_.write_buffers.visible() + encode, cache_.next_write);
       run_.clock.wait_until(at);
       const std::uint32_t line = cache_.write_buffers.front().line;
-      cache_.memory.layout.pack(line, cache_.write_buffers.front().codes, bytes_);
+      cache_.pack(line, cache_.write_buffers.front().codes, bytes_);
       sc_core::sc_time delay;
       cache_.memory.access(tlm::TLM_WRITE_COMMAND, line, bytes_, delay);
       const Cycle written = run_.clock.after(delay);
