@@ -121,6 +121,7 @@ module block_walker
   end
 
   always_comb begin
+    job_d.sure  = '0;
     job_d.tiles = touched;
     for (int unsigned i = 0; i < EdgeCount; i++) begin
       job_d.tiles &= ~outside[i];

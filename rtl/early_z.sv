@@ -191,8 +191,8 @@ module early_z
   // Lookup.
   logic                                 first, found, resolved, burst_done, leaving, request;
   burst_t                               burst, found_burst;
-  logic [ZParts-1:0]                    missed, victim, victim_half, fetched, fill_free, stored;
-  logic [ZParts-1:0]                    leaving_part, slot_half;
+  logic [ZParts-1:0]                    missed, sure, fetched, victim, victim_half, fill_free;
+  logic [ZParts-1:0]                    stored, leaving_part, slot_half;
   logic [ZParts-1:0] [PartLineBits-1:0] line_index;
   logic [ZParts-1:0] [TileBits-1:0]     victim_tile, stored_tile, slot_tile;
   logic [ZParts-1:0] [Ways-1:0]         dropped;
@@ -219,6 +219,7 @@ module early_z
     .tile_y_i       (beat_i.tile_y),
     .last_i         (beat_i.last),
     .parts_i        (beat_i.parts),
+    .sure_i         (beat_i.sure),
     .first_o        (first),
     .burst_o        (burst),
     .state_read_o   (state_read),
@@ -229,6 +230,7 @@ module early_z
     .found_o        (found),
     .found_burst_o  (found_burst),
     .missed_o       (missed),
+    .sure_o         (sure),
     .line_index_o   (line_index),
     .victim_o       (victim),
     .victim_tile_o  (victim_tile),
@@ -429,6 +431,7 @@ module early_z
     .found_i          (found),
     .found_burst_i    (found_burst),
     .missed_i         (missed),
+    .sure_i           (sure),
     .line_index_i     (line_index),
     .victim_i         (victim),
     .victim_tile_i    (victim_tile),

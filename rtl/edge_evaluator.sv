@@ -38,6 +38,7 @@ module edge_evaluator
   // What a tile carries past the adders.
   typedef struct packed {
     logic [SlotBits-1:0]      slot;
+    logic                     sure;
     logic [TileCoordBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0]              e;
@@ -55,6 +56,7 @@ module edge_evaluator
   assign job_accepted = job_valid_i & job_ready_o;
   assign job_tile = '{
     slot:     job_i.slot,
+    sure:     job_i.sure,
     tile_x:   job_i.tile_x,
     tile_y:   job_i.tile_y,
     e:        job_i.e[2:1],
@@ -123,6 +125,7 @@ module edge_evaluator
 
   always_comb begin
     coverage_d.slot     = steps_tile.slot;
+    coverage_d.sure     = steps_tile.sure;
     coverage_d.tile_x   = steps_tile.tile_x;
     coverage_d.tile_y   = steps_tile.tile_y;
     coverage_d.e        = steps_tile.e;

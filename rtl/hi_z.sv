@@ -1,4 +1,5 @@
-// Hierarchical Z: takes the tiles out of a block in which no sample can pass the depth test.
+// Hierarchical Z: takes the tiles out of a block in which no sample can pass the depth test, and marks those in which
+// every sample passes.
 //
 // A pipeline in order. In a cycle it takes at most one block, which is decided three cycles later, and applies at most one
 // job: what is then stored in the tile of the oldest job in flight goes into the word of its block. A block sees the jobs
@@ -15,6 +16,8 @@ module hi_z
   /// Slots of the output FIFO, 4 or more, each as wide as block_job_t. With fewer than 7 blocks cannot leave in every
   /// cycle.
   parameter int unsigned FifoDepth = 12,
+  /// Marks tiles in which every sample passes.
+  parameter bit Accept = 1'b1,
   /// Bits of a bound, 4 to 32.
   parameter int unsigned Bits = 8,
   /// A block sees what jobs have written that are at least so many older: 1 or more.
@@ -411,8 +414,8 @@ module hi_z
   logic [BlockTiles-1:0][CodeBits:0] upper, lower;
   logic                              after_upper, after_lower;
 
-  assign after_upper = test2_q.func != Less;
-  assign after_lower = test2_q.func == Greater;
+  assign after_upper = test2_q.func inside {Lequal, Equal, NotEqual, Greater};
+  assign after_lower = test2_q.func inside {Lequal, Greater};
 
   typedef logic [CodeBits:0] wide_code_t;
 
@@ -478,7 +481,7 @@ module hi_z
   end
 
   // Cycle 3.
-  tiles_t at_least, below, up, down, rejected, left;
+  tiles_t at_least, below, up, down, over, under, rejected, accepted, left, sure;
 
   for (genvar i = 0; i < BlockTiles; i++) begin : gen_test
     hi_z_test u_test (
@@ -500,17 +503,29 @@ module hi_z
   assign up   = up3_q | (same3_q && up4_q ? left4 : '0);
   assign down = down3_q | (same3_q && down4_q ? left4 : '0);
 
+  assign over  = at_least & ~up;
+  assign under = below & ~down;
+
   always_comb begin
     unique case (test3_q.func)
       Never:           rejected = '1;
-      Less, Lequal:    rejected = at_least & ~up;
-      Equal:           rejected = (at_least & ~up) | (below & ~down);
-      Greater, Gequal: rejected = below & ~down;
+      Less, Lequal:    rejected = over;
+      Equal:           rejected = over | under;
+      Greater, Gequal: rejected = under;
       default:         rejected = '0;
+    endcase
+    unique case (test3_q.func)
+      Less, Lequal:    accepted = under;
+      NotEqual:        accepted = over | under;
+      Greater, Gequal: accepted = over;
+      Always:          accepted = '1;
+      default:         accepted = '0;
     endcase
   end
 
+  // Only draws that write may raise or lower what is stored.
   assign left = test3_q.test ? job_q[3].tiles & ~rejected : job_q[3].tiles;
+  assign sure = Accept && (test3_q.up || test3_q.down) ? left & accepted : '0;
 
   always_comb begin
     left_count = '0;
@@ -525,6 +540,7 @@ module hi_z
     if (valid_q[3]) begin
       job_q[4]       <= job_q[3];
       job_q[4].tiles <= left;
+      job_q[4].sure  <= sure;
       number4_q      <= number3_q;
       up4_q          <= test3_q.up;
       down4_q        <= test3_q.down;

@@ -52,6 +52,7 @@ module quad_generator
     logic [TileCoordBits-1:0]        tile_y;
     edge_t [1:0]                     e;
     logic [ZParts-1:0][FlagBits-1:0] parts;
+    logic [ZParts-1:0][FlagBits-1:0] sure;
   } head_t;
 
   typedef struct packed {
@@ -75,7 +76,7 @@ module quad_generator
 
   // The coverage as quads.
   samples_t coverage_samples;
-  quads_t   coverage_quads;
+  quads_t   coverage_quads, coverage_full;
   head_t    coverage_head;
   logic     accepted;
 
@@ -89,8 +90,10 @@ module quad_generator
 
   always_comb begin
     coverage_quads = '0;
+    coverage_full  = '1;
     for (int unsigned sample = 0; sample < QuadMaskBits; sample++) begin
       coverage_quads |= coverage_samples[sample];
+      coverage_full  &= coverage_samples[sample];
     end
   end
 
@@ -101,6 +104,7 @@ module quad_generator
     coverage_head.e      = coverage_i.e;
     for (int unsigned part = 0; part < ZParts; part++) begin
       coverage_head.parts[part] = |coverage_quads[part*PartQuads+:PartQuads];
+      coverage_head.sure[part]  = coverage_i.sure & (&coverage_full[part*PartQuads+:PartQuads]);
     end
   end
 
@@ -222,6 +226,7 @@ module quad_generator
     beat_o.e      = out_head.e;
     beat_o.last   = out_last;
     beat_o.parts  = out_head.parts;
+    beat_o.sure   = out_head.sure;
     beat_o.index  = out_beat.index;
     beat_o.mask   = out_beat.mask;
   end

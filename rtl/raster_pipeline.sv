@@ -14,6 +14,7 @@ module raster_pipeline
   parameter bit          TrivialReject = 1'b1,
   parameter int unsigned BlockFifo = 4,
   parameter bit          HiZ = 1'b0,
+  parameter bit          HiZAccept = 1'b1,
   parameter int unsigned HiZBits = 8,
   parameter int unsigned HiZLag = 128,
   parameter int unsigned HiZFifo = 12,
@@ -170,6 +171,7 @@ module raster_pipeline
 
     hi_z #(
       .FifoDepth    (HiZFifo),
+      .Accept       (HiZAccept),
       .Bits         (HiZBits),
       .Lag          (HiZLag),
       .MemoryBlocks (MemoryBlocks),

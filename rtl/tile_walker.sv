@@ -92,6 +92,7 @@ module tile_walker
   // First register; tile_edge keeps the edges in step with both.
   typedef struct packed {
     logic [SlotBits-1:0]       slot;
+    logic                      sure;
     logic [BlockCoordBits-1:0] block_x;
     logic [BlockCoordBits-1:0] block_y;
     logic [BlockLog2-1:0]      x_first;
@@ -107,6 +108,7 @@ module tile_walker
 
   assign picked_d = '{
     slot:    block_i.slot,
+    sure:    |(block_i.sure & pick),
     block_x: block_i.block_x,
     block_y: block_i.block_y,
     x_first: block_i.x_first,
@@ -131,6 +133,7 @@ module tile_walker
   // Second register. The bounds cut a tile only where they begin or end.
   typedef struct packed {
     logic [SlotBits-1:0]      slot;
+    logic                     sure;
     logic [TileCoordBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     logic [TileLog2-1:0]      x_first;
@@ -156,6 +159,7 @@ module tile_walker
 
   assign placed_d = '{
     slot:    picked.slot,
+    sure:    picked.sure,
     tile_x:  {picked.block_x, picked.tile_x},
     tile_y:  {picked.block_y, picked.tile_y},
     x_first: picked.tile_x == x_first.tile ? x_first.pixel : '0,
@@ -197,6 +201,7 @@ module tile_walker
   end
 
   assign job.slot    = placed.slot;
+  assign job.sure    = placed.sure;
   assign job.tile_x  = placed.tile_x;
   assign job.tile_y  = placed.tile_y;
   assign job.x_first = placed.x_first;

@@ -2,8 +2,8 @@
 // lines they replace, and asks memory for them.
 //
 // The first beat of a burst is taken in cycle f. Its draw state and the tags are looked at in f + 1; from then on one
-// missing part is resolved in a cycle, in order of parts: found cleared, or asked for, once the line is out of the
-// cache and, if it is to be fetched, a fill buffer is free. The next burst is taken when all beats have moved, from the
+// missing part is resolved in a cycle, in order of parts: found cleared or overwritten whole, or asked for, once the line
+// is out of the cache and, if it is to be fetched, a fill buffer is free. The next burst is taken when all beats have moved, from the
 // cycle in which the last part is resolved on. beat_ready_o comes from registers and the tags, not from an input.
 
 module z_lookup
@@ -36,6 +36,7 @@ module z_lookup
   input  logic [TileCoordBits-1:0]               tile_y_i,
   input  logic                                   last_i,
   input  logic [ZParts-1:0]                      parts_i,
+  input  logic [ZParts-1:0]                      sure_i,    // of these: overwritten whole
   output logic                                   first_o,   // the beat is the first of its burst
   output logic [PendingBits-1:0]                 burst_o,   // where the burst is kept
   output logic                                   state_read_o,
@@ -48,6 +49,7 @@ module z_lookup
   output logic                                   found_o,
   output logic [PendingBits-1:0]                 found_burst_o,
   output logic [ZParts-1:0]                      missed_o,
+  output logic [ZParts-1:0]                      sure_o,
   output logic [ZParts-1:0] [PartLineBits-1:0]   line_index_o,
   output logic [ZParts-1:0]                      victim_o,      // the slot was in use
   output logic [ZParts-1:0] [TileBits-1:0]       victim_tile_o,
@@ -118,7 +120,7 @@ module z_lookup
   logic    take_first;
 
   logic [TileCoordBits-1:0] tile_x_q, tile_y_q;
-  logic [ZParts-1:0]        parts_q;
+  logic [ZParts-1:0]        parts_q, sure_q;
 
   assign take_first   = beat_valid_i & beat_ready_o & ~middle_q;
   assign first_o      = ~middle_q;
@@ -162,6 +164,7 @@ module z_lookup
       tile_x_q <= tile_x_i;
       tile_y_q <= tile_y_i;
       parts_q  <= parts_i;
+      sure_q   <= sure_i;
     end
   end
 
@@ -311,21 +314,22 @@ module z_lookup
 
   assign found_o       = fresh_q;
   assign found_burst_o = burst_q;
+  assign sure_o        = sure_q;
 
   // From cycle f + 1 on: the missing parts, the lowest first.
   logic [ZParts-1:0] left, left_d, left_q, part;
   logic [ZParts-1:0] fetched_d, fetched_q;
-  logic              is_cleared, resolve, ask;
+  logic              is_made, resolve, ask;
   logic              waits_q; // a request, for memory to take it
   fill_t             fills_d, fills_q;
 
   assign left           = fresh_q ? missed_o : left_q;
   assign part           = left & (~left + ZParts'(1));
-  assign is_cleared     = |(cleared & part);
+  assign is_made        = |((cleared | sure_q) & part);
   assign leaving_part_o = part;
   assign leaving_tile_o = tile;
-  assign resolve        = left != '0 && !leaving_i && (is_cleared || fills_q != '0) && !waits_q;
-  assign ask            = resolve & ~is_cleared;
+  assign resolve        = left != '0 && !leaving_i && (is_made || fills_q != '0) && !waits_q;
+  assign ask            = resolve & ~is_made;
   assign left_d         = resolve ? left & ~part : left;
   assign fetched_d      = (fresh_q ? '0 : fetched_q) | (ask ? part : '0);
   assign resolved_o     = (fresh_q || left_q != '0) && left_d == '0;

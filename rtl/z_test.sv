@@ -42,6 +42,7 @@ module z_test
   input  logic                                   found_i,
   input  logic [PendingBits-1:0]                 found_burst_i,
   input  logic [ZParts-1:0]                      missed_i,
+  input  logic [ZParts-1:0]                      sure_i,
   input  logic [ZParts-1:0] [PartLineBits-1:0]   line_index_i,
   input  logic [ZParts-1:0]                      victim_i,
   input  logic [ZParts-1:0] [TileBits-1:0]       victim_tile_i,
@@ -134,6 +135,7 @@ module z_test
 
   typedef struct packed {
     logic [ZParts-1:0]                     missed;
+    logic [ZParts-1:0]                     sure;
     logic [ZParts-1:0] [PartLineBits-1:0]  line_index;
     logic [ZParts-1:0]                     victim;
     logic [ZParts-1:0] [TileBits-1:0]      victim_tile;
@@ -178,8 +180,8 @@ module z_test
   always_ff @(posedge clk_i) begin
     if (found_i) begin
       headers_q[found_burst_i] <= '{
-        missed: missed_i, line_index: line_index_i, victim: victim_i, victim_tile: victim_tile_i,
-        victim_half: victim_half_i};
+        missed: missed_i, sure: sure_i, line_index: line_index_i, victim: victim_i,
+        victim_tile: victim_tile_i, victim_half: victim_half_i};
     end
     if (resolved_i) begin
       fetched_q[found_burst_i] <= fetched_i;
@@ -243,8 +245,8 @@ module z_test
   end
 
   logic unused_next_header;
-  assign unused_next_header = ^{next_header.missed, next_header.victim, next_header.victim_tile,
-                                next_header.victim_half};
+  assign unused_next_header = ^{next_header.missed, next_header.sure, next_header.victim,
+                                next_header.victim_tile, next_header.victim_half};
 
   // When the first beat of a burst may be tested.
   burst_count_t  resolved_q;                  // bursts, not yet begun
@@ -387,6 +389,12 @@ module z_test
 
   assign tile_codes = line;
 
+  // Whatever the lines of these hold: nobody has asked for them.
+  logic [TileQuads-1:0] sure_quads;
+  for (genvar p = 0; p < ZParts; p++) begin : gen_sure
+    assign sure_quads[p*PartQuads+:PartQuads] = {PartQuads{header.sure[p]}};
+  end
+
   always_comb begin
     automatic logic [3:0] [CodeBits-1:0] old = '0;
     automatic logic [CodeBits-1:0] code = '0;
@@ -401,7 +409,8 @@ module z_test
           code = beat_q.depth[4*v+s];
           pass = 1'b0;
           if (beat_q.mask[v][s]) begin
-            pass = passes(func_q, code, old[s]) | ~test_q | (func_q == '1);
+            pass = passes(func_q, code, old[s]) | ~test_q | (func_q == '1)
+                   | sure_quads[beat_q.index[v]];
             if (pass && touches_q && write_q) begin
               wrote[beat_q.index[v]][s]   = 1'b1;
               updated[beat_q.index[v]][s] = code;

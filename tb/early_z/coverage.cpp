@@ -16,8 +16,8 @@ std::string state_bin(const EarlyZState& state) {
                      static_cast<int>(state.func), state.write ? "write" : "no write");
 }
 
-std::string miss_bin(bool fetch, const char* victim) {
-  return fmt::format("miss {} victim {}", fetch ? "fetched" : "cleared", victim);
+std::string miss_bin(const char* made, const char* victim) {
+  return fmt::format("miss {} victim {}", made, victim);
 }
 
 /// Whether a flush of dirty lines, one a cycle, can find the write buffer full: writing is slow enough, and
@@ -45,9 +45,9 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
     counts_[fmt::format("test off {}", kFormatNames[static_cast<std::size_t>(format)])] = 0;
   }
   counts_["test off none"] = 0;
-  for (const bool fetch : {false, true}) {
+  for (const char* made : {"fetched", "overwritten", "cleared"}) {
     for (const char* victim : {"none", "clean", "dirty"}) {
-      counts_[miss_bin(fetch, victim)] = 0;
+      counts_[miss_bin(made, victim)] = 0;
     }
   }
   counts_["hit"] = 0;
@@ -105,7 +105,12 @@ void ZCoverage::command(const Command& command) {
     hit(fmt::format("parts missed {}", command.misses.count));
   }
   for (const ZMiss& miss : command.misses.parts()) {
-    hit(miss_bin(miss.fetch, miss.victim == kNoZLine ? "none" : miss.write_back ? "dirty" : "clean"));
+    hit(miss_bin(miss.fetch         ? "fetched"
+                 : miss.overwritten ? "overwritten"
+                                    : "cleared",
+                 miss.victim == kNoZLine ? "none"
+                 : miss.write_back       ? "dirty"
+                                         : "clean"));
   }
 }
 

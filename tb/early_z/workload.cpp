@@ -213,9 +213,20 @@ class Maker {
     }
   }
 
+  /// Whether all samples of a burst pass and write.
   template <int TileSize>
-  void add_burst(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
-                 Surface& surface, const std::optional<std::array<std::uint16_t, 2>>& place) {
+  static bool overwrites(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
+                         const std::uint32_t* stored) {
+    TileCodes<TileSize> before;
+    std::copy_n(stored, before.size(), before.begin());
+    TileCodes<TileSize> codes{};
+    return touches_depth(state) && state.write &&
+           z_test<TileSize>(triangle, burst, state, before.data(), codes) == burst.coverage.mask;
+  }
+
+  template <int TileSize>
+  void add_burst(const SetupTriangle& triangle, QuadBurst burst, const EarlyZState& state, Surface& surface,
+                 const std::optional<std::array<std::uint16_t, 2>>& place) {
     Command& command = workload_.commands.emplace_back();
     command.triangle = workload_.triangles.size() - 1;
     command.state = state;
@@ -223,6 +234,8 @@ class Maker {
     const std::uint32_t tile =
         burst.coverage.tile_y * surface.place.tiles_x + static_cast<std::uint32_t>(burst.coverage.tile_x);
     std::uint32_t* const stored = &surface.codes[tile * static_cast<std::uint32_t>(TileSize * TileSize)];
+    burst.coverage.sure =
+        overwrites<TileSize>(triangle, burst, state, stored) && random_.below(4) != 0 ? 1 : 0;
     TileCodes<TileSize> codes{};
     const TileMask passed = z_test<TileSize>(triangle, burst, state, stored, codes);
     if (state.format == DepthFormat::kNone) {
@@ -234,8 +247,9 @@ class Maker {
     if (touches_depth(state)) {
       command.touched = covered;
       const std::uint8_t written = state.write ? parts_of_mask<TileSize>(passed, parts()) : std::uint8_t{0};
-      command.misses =
-          cache_.access(surface.place, burst.coverage.tile_x, burst.coverage.tile_y, covered, written);
+      command.misses = cache_.access(
+          surface.place, burst.coverage.tile_x, burst.coverage.tile_y,
+          {.touched = covered, .written = written, .sure = sure_parts<TileSize>(burst.coverage, parts())});
       for (const ZMiss& miss : command.misses.parts()) {
         if (miss.write_back) {
           cleared_[miss.victim] = false;

@@ -22,6 +22,7 @@ void number(TileJob& job, std::uint64_t index, const Widths& widths) {
   job.tile_x = static_cast<std::uint16_t>(field(widths.SlotBits, widths.TileCoordBits));
   job.tile_y =
       static_cast<std::uint16_t>(field(widths.SlotBits + widths.TileCoordBits, widths.TileCoordBits));
+  job.sure = static_cast<std::uint8_t>(field(widths.SlotBits + 2 * widths.TileCoordBits, 1));
 }
 
 /// A job in which every sample is covered.
@@ -161,7 +162,7 @@ void add_bounds(std::vector<TileJob>& jobs, const Widths& widths) {
 
 /// All bits of the fields that only pass through.
 void add_identities(std::vector<TileJob>& jobs, const Widths& widths) {
-  for (int bit = 0; bit < widths.SlotBits + 2 * widths.TileCoordBits; ++bit) {
+  for (int bit = 0; bit <= widths.SlotBits + 2 * widths.TileCoordBits; ++bit) {
     TileJob job = full_job(widths);
     number(job, std::uint64_t{1} << bit, widths);
     jobs.push_back(job);

@@ -48,6 +48,7 @@ module edge_evaluator_tb;
     next.slot   = SlotBits'($urandom);
     next.tile_x = TileCoordBits'($urandom);
     next.tile_y = TileCoordBits'($urandom);
+    next.sure   = 1'($urandom);
     next.accept = $urandom_range(3) == 0 ? EdgeCount'($urandom) : '0;
     for (int i = 0; i < 3; i++) begin
       edge_t at_pixel;

@@ -12,6 +12,17 @@ HiZCoverage::HiZCoverage(const HiZShape& shape) {
       bins_.add(fmt::format("block of {}, {} of its tiles rejected", function, outcome));
     }
   }
+  for (const char* function : {"NEVER", "EQUAL"}) {
+    bins_.add(fmt::format("block of {}, none of its tiles sure", function));
+  }
+  for (const char* function : {"LESS", "LEQUAL", "GREATER", "GEQUAL", "NOTEQUAL"}) {
+    for (const char* outcome : {"all", "some", "none"}) {
+      if (shape.accept || std::string(outcome) == "none") {
+        bins_.add(fmt::format("block of {}, {} of its tiles sure", function, outcome));
+      }
+    }
+  }
+  bins_.add(fmt::format("block of ALWAYS, {} of its tiles sure", shape.accept ? "all" : "none"));
   bins_.add("block of NEVER, all of its tiles rejected");
   bins_.add("block of NOTEQUAL, none of its tiles rejected");
   bins_.add("block of ALWAYS, none of its tiles rejected");

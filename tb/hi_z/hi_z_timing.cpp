@@ -104,6 +104,11 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
     const State state = states_[command.number];
     coverage_.hit(fmt::format("block of {}, {} of its tiles rejected",
                               kFunctions[static_cast<std::size_t>(command.state.func)], outcome));
+    coverage_.hit(fmt::format("block of {}, {} of its tiles sure",
+                              kFunctions[static_cast<std::size_t>(command.state.func)],
+                              command.sure == command.tiles ? "all"
+                              : command.sure != 0           ? "some"
+                                                            : "none"));
     coverage_.hit(fmt::format("block of a word {}, {} of its tiles rejected",
                               state == State::kUnknown   ? "unknown"
                               : state == State::kCleared ? "cleared"

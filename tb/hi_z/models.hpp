@@ -15,6 +15,7 @@ namespace halfspace::tb {
 struct HiZShape {
   Widths widths;
   int fifo = 8;
+  bool accept = true;
   int bits = 8;
   int lag = 128;
   int memory_blocks = 1024;
@@ -22,6 +23,7 @@ struct HiZShape {
 
   [[nodiscard]] HiZConfig config() const {
     return {.enabled = true,
+            .accept = accept,
             .bits = bits,
             .lag = lag,
             .block_size = widths.BlockSize,

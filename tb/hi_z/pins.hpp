@@ -55,11 +55,12 @@ class VerilatedHiZ final : public HiZDut {
 /// The numbers as tb/hi_z/CMakeLists.txt lists them.
 template <class Model>
 HiZModel verilated(const std::string& name, int tile_size, int block_size, int sub_pixel_bits, int z_parts,
-                   int fifo, int bits, int lag, int memory_blocks, int clear_blocks) {
+                   int fifo, int accept, int bits, int lag, int memory_blocks, int clear_blocks) {
   return {
       name,
       {{.SubPixelBits = sub_pixel_bits, .BlockSize = block_size, .TileSize = tile_size, .ZParts = z_parts},
        fifo,
+       accept != 0,
        bits,
        lag,
        memory_blocks,

@@ -198,8 +198,11 @@ class HiZMaker {
     command.plane = block.z_known != 0;
     command.words.resize(words_for(packed_bits<BlockJob>(shape_.widths)));
     pack(block, shape_.widths, command.words);
-    command.rejected = hi_z_.decide(block, triangle.depth, state, surface.place);
-    block.tiles &= ~command.rejected;
+    const HiZ::Verdict verdict = hi_z_.decide(block, triangle.depth, state, surface.place);
+    command.rejected = verdict.rejected;
+    command.sure = verdict.sure;
+    block.tiles &= ~verdict.rejected;
+    block.sure = verdict.sure;
     command.left.resize(command.words.size());
     pack(block, shape_.widths, command.left);
     struct Sink {

@@ -28,6 +28,7 @@ struct HiZCommand {
   std::uint32_t number = 0;  ///< of the block; 0 where the draw does not test
   std::uint64_t tiles = 0;
   std::uint64_t rejected = 0;
+  std::uint64_t sure = 0;
   EarlyZState state;
   DepthMoves moves;
   std::uint32_t clear_code = 0;

@@ -101,7 +101,17 @@ std::optional<Failure> BurstTiming::compare_job(const UnitPins& pins) const {
 }
 
 void BurstTiming::take(const UnitPins& pins, bool returned) {
-  const std::vector<int> quads = quads_of(unpack<Coverage>(pins.input, widths_), widths_);
+  const auto coverage = unpack<Coverage>(pins.input, widths_);
+  const std::vector<int> quads = quads_of(coverage, widths_);
+  if (coverage.sure != 0) {
+    unsigned whole = (1u << widths_.ZParts) - 1;
+    for (int bit = 0; bit < widths_.MaskBits; ++bit) {
+      if ((coverage.mask.word[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1) == 0) {
+        whole &= ~(1u << (bit * widths_.ZParts / widths_.MaskBits));
+      }
+    }
+    coverage_.sure(whole);
+  }
   const int count = beats(static_cast<int>(quads.size()), widths_.QuadWidth);
   coverage_.taken(quads, capacity_ - credits_, pins.cycle == free_from_, returned);
   taken_ = true;

@@ -39,6 +39,7 @@ QuadCoverage::QuadCoverage(const Widths& widths, int fifo_depth)
   first_quad_ = add(numbered("quad {} first", 0, widths.TileQuads));
   last_quad_ = add(numbered("quad {} last", 0, widths.TileQuads));
   parts_ = add(numbered("parts {:#x}", 1, (1 << widths.ZParts) - 1));
+  sure_ = add(numbered("sure of parts {:#x}", 0, 1 << widths.ZParts));
   static constexpr const char* kKinds[] = {"empty", "of one beat", "of several beats"};
   std::vector<std::string> names;
   for (std::size_t before = 0; before < kinds_; ++before) {
@@ -84,6 +85,8 @@ void QuadCoverage::taken(const std::vector<int>& quads, int in_use, bool at_once
   hit(last_quad_, static_cast<std::size_t>(quads.back()));
   hit(fill_, (count - 1) % static_cast<std::size_t>(widths_.QuadWidth));
 }
+
+void QuadCoverage::sure(unsigned parts) { hit(sure_, parts); }
 
 void QuadCoverage::no_credit(bool empty) { hit(no_credit_, empty ? 0 : 1); }
 

@@ -19,6 +19,8 @@ class QuadCoverage {
   /// it; `at_once` tells that it was there in the first cycle in which it could be taken, and `returned` that
   /// a credit comes back in the same cycle.
   void taken(const std::vector<int>& quads, int in_use, bool at_once, bool returned);
+  /// Of a sure coverage, the parts that it covers whole.
+  void sure(unsigned parts);
   /// A coverage waits for nothing but a credit.
   void no_credit(bool empty);
   /// A burst has left; the sink held back its first beat, or a later one.
@@ -58,6 +60,7 @@ class QuadCoverage {
   Group first_quad_;
   Group last_quad_;
   Group parts_;
+  Group sure_;
   Group follows_;  ///< kind before, kind, at once or later
   Group in_use_;   ///< credits in use, empty or not
   Group no_credit_;

@@ -22,6 +22,7 @@ Coverage random_identity(const Widths& widths, Random& random) {
   coverage.slot = static_cast<std::uint8_t>(low_bits(random.bits(), widths.SlotBits));
   coverage.tile_x = static_cast<std::uint16_t>(low_bits(random.bits(), widths.TileCoordBits));
   coverage.tile_y = static_cast<std::uint16_t>(low_bits(random.bits(), widths.TileCoordBits));
+  coverage.sure = static_cast<std::uint8_t>(low_bits(random.bits(), 1));
   for (std::int64_t& e : coverage.e) {
     e = sign_extend(random.bits(), widths.EdgeBits);
   }

@@ -56,6 +56,8 @@ class BlockStimulus : public Stimulus {
  protected:
   void fill(BlockJob block, std::span<std::uint32_t> packet) {
     block.slot = static_cast<std::uint8_t>(slots_.bits());
+    const int tiles = parameters_.sizes.row_tiles() * parameters_.sizes.row_tiles();
+    block.sure = slots_.bits() >> (64 - tiles);
     pack(block, parameters_.sizes.widths(), packet);
   }
 

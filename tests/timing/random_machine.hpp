@@ -38,6 +38,7 @@ inline Config random_config(Random& random) {
   config.block_walker.trivial_reject = random.between(0, 3) != 0;
   config.tile_walker.trivial_accept = random.between(0, 3) != 0;
   config.hi_z.enabled = random.between(0, 2) == 0;
+  config.hi_z.accept = random.between(0, 3) != 0;
   config.hi_z.bits = pick(random, {4, 8, 12, 32});
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
   config.hi_z.fifo = mostly_small(random, 4, 16);
@@ -91,6 +92,7 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
     config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
     config.hi_z.enabled = recorded.hi_z.enabled;
+    config.hi_z.accept = recorded.hi_z.accept;
     config.hi_z.bits = recorded.hi_z.bits;
     config.hi_z.lag = recorded.hi_z.lag;
     config.depth.interpolator = recorded.depth.interpolator;

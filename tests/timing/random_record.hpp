@@ -62,9 +62,11 @@ inline FrameRecord random_record(Random& random, const Config& config) {
           const auto bands =
               static_cast<std::int64_t>((1u << stream_bands(config.tile_walker.tile_size)) - 1);
           const auto touched = static_cast<std::uint8_t>(random.between(1, bands));
+          const auto written =
+              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands)));
           packets.accesses.emplace_back(
-              static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched,
-              static_cast<std::uint8_t>(touched & static_cast<std::uint8_t>(random.between(0, bands))),
+              static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched, written,
+              static_cast<std::uint8_t>(written & static_cast<std::uint8_t>(random.between(0, bands))),
               random_shifts(random, config, record.surfaces[0].sample_bytes));
         }
       }

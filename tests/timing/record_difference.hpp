@@ -42,8 +42,9 @@ inline std::string record_difference(const FrameRecord& ours, const FrameRecord&
              "jobs", [](const FrameRecord& record) { return record.packets.jobs; },
              [](StreamJob quads) { return quads; }) +
          list(
-             "accesses", [](const FrameRecord& record) { return record.packets.accesses; }, word,
-             [](const StreamAccess& access) { return access.shifts().bits(); });
+             "accesses", [](const FrameRecord& record) { return record.packets.accesses; },
+             [](const StreamAccess& access) { return access.words()[0]; },
+             [](const StreamAccess& access) { return access.words()[1]; });
 }
 
 /// The same frame, recorded through both cores.

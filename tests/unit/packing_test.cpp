@@ -49,11 +49,11 @@ TEST_CASE("every pattern of bits survives unpack and pack") {
 
 TEST_CASE("the width of a packet is the sum of its fields") {
   constexpr Widths kBase;
-  // slot, tile_x, tile_y, e[3], a[3], b[3], accept, four bounds
-  STATIC_REQUIRE(packed_bits<TileJob>(kBase) == 8 + 11 + 11 + 3 * 51 + 3 * 25 + 3 * 25 + 3 + 4 * 3);
-  STATIC_REQUIRE(packed_bits<Coverage>(kBase) == 8 + 11 + 11 + 2 * 51 + 64);
+  // slot, tile_x, tile_y, e[3], a[3], b[3], sure, accept, four bounds
+  STATIC_REQUIRE(packed_bits<TileJob>(kBase) == 8 + 11 + 11 + 3 * 51 + 3 * 25 + 3 * 25 + 1 + 3 + 4 * 3);
+  STATIC_REQUIRE(packed_bits<Coverage>(kBase) == 8 + 11 + 11 + 1 + 2 * 51 + 64);
   STATIC_REQUIRE(kPackedWords<TileJob, 8, 8> == 11);
-  STATIC_REQUIRE(kPackedWords<Coverage, 16, 8> == (8 + 10 + 10 + 2 * 51 + 256 + 31) / 32);
+  STATIC_REQUIRE(kPackedWords<Coverage, 16, 8> == (8 + 10 + 10 + 1 + 2 * 51 + 256 + 31) / 32);
 }
 
 TEST_CASE("the first field is the most significant and element 0 of an array the lowest") {
@@ -64,7 +64,7 @@ TEST_CASE("the first field is the most significant and element 0 of an array the
   std::vector<std::uint32_t> words(words_for(packed_bits<TileJob>(kBase)));
   pack(job, kBase, words);
   CHECK(extract_bits(words, 0, 3) == 5);
-  constexpr int kA = 4 * 3 + 3 + 3 * 25;
+  constexpr int kA = 4 * 3 + 3 + 1 + 3 * 25;
   CHECK(extract_bits(words, kA, 25) == 0x1ffffff);
   CHECK(extract_bits(words, kA + 25, 25) == 0);
   CHECK(extract_bits(words, kA + 50, 25) == 1);
@@ -98,7 +98,7 @@ TEST_CASE("field slots cover a packet without gap, most significant first") {
     }
     CHECK(lsb == 0);
   }
-  CHECK(field_slots<Coverage>(Widths{})[3].name == "e[1]");
+  CHECK(field_slots<Coverage>(Widths{})[4].name == "e[1]");
 }
 
 }  // namespace

@@ -116,7 +116,9 @@ TEST_CASE("z_cache: hits, victims, fetches and the flush are those of a textbook
       const auto y = static_cast<std::uint32_t>(random.between(0, surface.tiles / surface.tiles_x - 1));
       const auto touched = static_cast<std::uint8_t>(random.between(1, (1 << shape.parts) - 1));
       const auto written = static_cast<std::uint8_t>(touched & random.between(0, 15));
-      const ZMisses misses = cache.access(surface, x, y, touched, written);
+      const auto sure = static_cast<std::uint8_t>(random.between(0, 3) == 0 ? written : 0);
+      const ZMisses misses =
+          cache.access(surface, x, y, {.touched = touched, .written = written, .sure = sure});
       std::size_t next = 0;
       for (int part = 0; part < shape.parts; ++part) {
         if ((touched >> part & 1) == 0) {
@@ -133,7 +135,9 @@ TEST_CASE("z_cache: hits, victims, fetches and the flush are those of a textbook
         const ZMiss& miss = misses.part[next++];
         REQUIRE(miss.line == line);
         REQUIRE(miss.bytes == surface.line_bytes);
-        REQUIRE(miss.fetch == found.fetch);
+        const bool overwritten = (sure >> part & 1) != 0;
+        REQUIRE(miss.overwritten == overwritten);
+        REQUIRE(miss.fetch == (found.fetch && !overwritten));
         REQUIRE(miss.write_back == (found.victim && found.victim->dirty));
         if (miss.write_back) {
           REQUIRE(miss.victim == found.victim->line);
@@ -160,7 +164,7 @@ TEST_CASE("z_cache: a square of the screen as large as the cache fits", "[z_cach
   for (int round = 0; round < 2; ++round) {
     for (std::uint32_t y = 37; y < 45; ++y) {
       for (std::uint32_t x = 13; x < 21; ++x) {
-        CHECK(cache.access(surface, x, y, 1, 0).count == (round == 0 ? 1 : 0));
+        CHECK(cache.access(surface, x, y, {.touched = 1}).count == (round == 0 ? 1 : 0));
       }
     }
   }

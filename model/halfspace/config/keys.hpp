@@ -52,6 +52,8 @@
   BEGIN(hi_z)                                                                                                \
     MODULE(hi_z., enabled, bool, false, boolean(), "", function,                                             \
         "reject the tiles of a block in which no sample can pass the depth test", HiZ)                       \
+    MODULE(hi_z., accept, bool, true, boolean(), "", function,                                               \
+        "do not fetch lines that a tile overwrites whole, where all of its samples pass for sure", HiZAccept) \
     MODULE(hi_z., bits, int, 8, range(4, 32), "bits", function,                                              \
         "of a bound of depth; those of a block share a base and a shift", HiZBits)                           \
     MODULE(hi_z., lag, int, 128, range(1, 1024), "tile jobs", function,                                      \

@@ -474,9 +474,9 @@ class EarlyZ {
       const std::uint8_t parts = touched_parts_[static_cast<std::size_t>(lane)];
       const std::uint8_t changed =
           (written >> lane & 1) != 0 ? written_parts_[static_cast<std::size_t>(lane)] : std::uint8_t{0};
-      const ZMisses misses =
-          task_.tile_cache->access(task_.place, static_cast<std::uint32_t>(tile_x(lane)),
-                                   static_cast<std::uint32_t>(tile_y(lane)), parts, changed);
+      const ZMisses misses = task_.tile_cache->access(task_.place, static_cast<std::uint32_t>(tile_x(lane)),
+                                                      static_cast<std::uint32_t>(tile_y(lane)),
+                                                      {.touched = parts, .written = changed});
       passage::count_z_cache(counters_.early_z, parts, misses);
       if (task_.stream != nullptr) {
         task_.stream->accessed(misses.parts());

@@ -302,7 +302,8 @@ void FrameRun::tell_job(int quads) {
 void FrameRun::look_up(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched,
                        std::uint8_t written) {
   if (!memory_.by_blocks) {
-    const ZMisses misses = memory_.tile_cache.access(task_.place, tile_x, tile_y, touched, written);
+    const ZMisses misses =
+        memory_.tile_cache.access(task_.place, tile_x, tile_y, {.touched = touched, .written = written});
     passage::count_z_cache(draw_->counters.early_z, touched, misses);
     if (stream_) {
       stream_->accessed(misses.parts());

@@ -150,9 +150,8 @@ class InOrderRun {
 
   void block(BlockJob block, std::uint32_t empty_before) {
     if (config_.hi_z.enabled) {
-      block.tiles =
-          passage::hi_z(hi_z_, block, triangle_.depth,
-                        draw_->surface == kNoSurface ? HiZSurface{} : blocks_[draw_->surface], *draw_);
+      passage::hi_z(hi_z_, block, triangle_.depth,
+                    draw_->surface == kNoSurface ? HiZSurface{} : blocks_[draw_->surface], *draw_);
     }
     if (stream_) {
       if (stream_->full()) [[unlikely]] {
@@ -211,20 +210,18 @@ class InOrderRun {
   }
 
   void look_up(const Coverage& coverage, const TileMask& passed) {
-    const int parts = config_.z_cache.parts;
-    const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, *draw_, parts);
-    const std::uint8_t written = passage::written_parts<TileSize>(passed, *draw_, parts);
     const ZSurface& place = places_[draw_->surface];
-    const ZShifts shifts = passage::coded_parts<TileSize>(
-        surface_->codes.tile(coverage.tile_x, coverage.tile_y), written, place, config_);
-    const ZMisses misses = passage::z_cache(z_cache_, place, coverage, touched, written, shifts, *draw_);
+    const ZAccess access = passage::z_access<TileSize>(
+        coverage, passed, surface_->codes.tile(coverage.tile_x, coverage.tile_y), *draw_, place, config_);
+    const ZMisses misses = passage::z_cache(z_cache_, place, coverage, access, *draw_);
     if (stream_) {
       stream_->accessed(misses.parts());
       if (stream_->wants_accesses()) {
         constexpr int kBands = stream_bands(TileSize);
         stream_->access({coverage.tile_x, coverage.tile_y,
                          passage::touched_parts<TileSize>(coverage, *draw_, kBands),
-                         passage::written_parts<TileSize>(passed, *draw_, kBands), shifts});
+                         passage::written_parts<TileSize>(passed, *draw_, kBands),
+                         sure_parts<TileSize>(coverage, kBands), access.shifts});
       }
     }
   }

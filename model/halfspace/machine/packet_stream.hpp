@@ -6,6 +6,7 @@
 /// put together in order they are the stream of the frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,27 +38,26 @@ class StreamBlock {
 using StreamJob = std::uint8_t;
 
 /// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
-/// half in tiles of 4 x 4), that it touches and writes; and by how much the parts that it writes are coded
-/// then, on the machine that the stream is of.
+/// half in tiles of 4 x 4), that it touches, writes and overwrites whole; and by how much the parts that it
+/// writes are coded then, on the machine that the stream is of.
 class StreamAccess {
  public:
   StreamAccess() = default;
   StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written,
-               ZShifts shifts = {})
-      : word_(tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28),
-        shifts_(shifts) {}
-  StreamAccess(std::uint32_t word, ZShifts shifts) : word_(word), shifts_(shifts) {}
-  [[nodiscard]] std::uint32_t tile_x() const { return word_ & 0xFFF; }
-  [[nodiscard]] std::uint32_t tile_y() const { return word_ >> 12 & 0xFFF; }
-  [[nodiscard]] std::uint8_t touched() const { return word_ >> 24 & 0xF; }
-  [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(word_ >> 28); }
-  [[nodiscard]] ZShifts shifts() const { return shifts_; }
-  /// All but the shifts.
-  [[nodiscard]] std::uint32_t word() const { return word_; }
+               std::uint8_t sure = 0, ZShifts shifts = {})
+      : words_{tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
+               sure | std::uint32_t{shifts.bits()} << 4} {}
+  explicit StreamAccess(const std::array<std::uint32_t, 2>& words) : words_(words) {}
+  [[nodiscard]] std::uint32_t tile_x() const { return words_[0] & 0xFFF; }
+  [[nodiscard]] std::uint32_t tile_y() const { return words_[0] >> 12 & 0xFFF; }
+  [[nodiscard]] std::uint8_t touched() const { return words_[0] >> 24 & 0xF; }
+  [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(words_[0] >> 28); }
+  [[nodiscard]] std::uint8_t sure() const { return words_[1] & 0xF; }
+  [[nodiscard]] ZShifts shifts() const { return ZShifts(static_cast<std::uint8_t>(words_[1] >> 4)); }
+  [[nodiscard]] const std::array<std::uint32_t, 2>& words() const { return words_; }
 
  private:
-  std::uint32_t word_ = 0;
-  ZShifts shifts_;
+  std::array<std::uint32_t, 2> words_{};
 };
 
 /// Bands of a tile that a StreamAccess tells apart.

@@ -88,6 +88,7 @@ ZCodecShape z_codec_shape(const ZSurface& surface, const Config& config) {
 
 HiZConfig hi_z_config(const Config& config) {
   return {.enabled = config.hi_z.enabled,
+          .accept = config.hi_z.accept,
           .bits = config.hi_z.bits,
           .lag = config.hi_z.lag,
           .block_size = config.block_walker.block_size,

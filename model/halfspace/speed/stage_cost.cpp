@@ -135,12 +135,10 @@ class PrefixRun {
       passage::sink<TileSize>(coverage.mask, passed, coverage.tile_x, coverage.tile_y, triangle_.triangle,
                               *draw_, surface_);
       if (kLast >= Last::kZCache && touches_depth(draw_->early_z)) {
-        const int parts = config_.z_cache.parts;
         const ZSurface& place = places_[draw_->surface];
-        const std::uint8_t written = passage::written_parts<TileSize>(passed, *draw_, parts);
         drop(passage::z_cache(z_cache_, place, coverage,
-                              passage::touched_parts<TileSize>(coverage, *draw_, parts), written,
-                              passage::coded_parts<TileSize>(stored, written, place, config_), *draw_));
+                              passage::z_access<TileSize>(coverage, passed, stored, *draw_, place, config_),
+                              *draw_));
       }
     }
   }

@@ -31,7 +31,8 @@ namespace halfspace {
 
 #define HALFSPACE_HI_Z_COUNTERS(C)                                           \
   C(blocks_rejected,   "no sample of them can pass: nothing leaves for them") \
-  C(tiles_rejected,    "no sample of them can pass")
+  C(tiles_rejected,    "no sample of them can pass")                          \
+  C(tiles_sure,        "every sample of them passes and writes")
 
 #define HALFSPACE_TILE_WALKER_COUNTERS(C)                                    \
   C(tiles_accepted,    "tiles covered whole")                                \
@@ -61,7 +62,8 @@ namespace halfspace {
   C(z_bursts,          "tiles that had to do with stored depth")            \
   C(z_hits,            "their parts that were in the z cache")              \
   C(z_misses,          "their parts that were not")                         \
-  C(z_cleared,         "misses made from the clear value, not fetched")     \
+  C(z_overwritten,     "misses that the tile overwrites whole, not fetched") \
+  C(z_cleared,         "other misses made from the clear value, not fetched") \
   C(z_evicted,         "lines written back because others took their place") \
   C(bytes_read,        "fetched from memory")                               \
   C(bytes_written,     "written back, the flush at the end not counted")

@@ -27,8 +27,12 @@ constexpr TileMask half_plane(std::int32_t local_edge, std::int32_t a, std::int3
 /// `job` must satisfy the widths of its packet for `sub_pixel_bits` (4 to 8).
 template <int TileSize>
 constexpr Coverage edge_evaluator(const TileJob& job, int sub_pixel_bits) {
-  Coverage coverage{
-      .slot = job.slot, .tile_x = job.tile_x, .tile_y = job.tile_y, .e = {job.e[1], job.e[2]}, .mask = {}};
+  Coverage coverage{.slot = job.slot,
+                    .tile_x = job.tile_x,
+                    .tile_y = job.tile_y,
+                    .sure = job.sure,
+                    .e = {job.e[1], job.e[2]},
+                    .mask = {}};
   coverage.mask = rect_mask<TileSize>(job.x_first, job.x_last, job.y_first, job.y_last);
   for (std::size_t i = 0; i < 3; ++i) {
     if ((job.accept >> i & 1) != 0) {

@@ -37,31 +37,37 @@ class CodeRange {
   int exponent_;
 };
 
-/// No code of the triangle passes the test against what lies within `bounds`; which of its ends count.
-bool none_passes(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, bool least_counts,
-                 bool most_counts) {
+enum class Outcome : std::uint8_t { kUnknown, kNonePasses, kAllPass };
+
+/// What becomes of the triangle's codes against what lies within `bounds`; which of its ends count.
+Outcome test(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, bool least_counts,
+             bool most_counts) {
   const auto at_least = [&](std::uint64_t code) { return most_counts && codes.at_least(code); };
   const auto below = [&](std::uint64_t code) { return least_counts && codes.below(code); };
   const std::uint64_t least = bounds.least;
   const std::uint64_t most = bounds.most;
+  const auto outcome = [](bool none, bool all) {
+    return none ? Outcome::kNonePasses : all ? Outcome::kAllPass : Outcome::kUnknown;
+  };
   switch (func) {
     case DepthFunc::kNever:
-      return true;
+      return Outcome::kNonePasses;
     case DepthFunc::kLess:
-      return at_least(most);
+      return outcome(at_least(most), below(least));
     case DepthFunc::kLequal:
-      return at_least(most + 1);
+      return outcome(at_least(most + 1), below(least + 1));
     case DepthFunc::kEqual:
-      return at_least(most + 1) || below(least);
+      return outcome(at_least(most + 1) || below(least), false);
     case DepthFunc::kGreater:
-      return below(least + 1);
+      return outcome(below(least + 1), at_least(most + 1));
     case DepthFunc::kGequal:
-      return below(least);
+      return outcome(below(least), at_least(most));
     case DepthFunc::kNotEqual:
+      return outcome(false, at_least(most + 1) || below(least));
     case DepthFunc::kAlways:
-      return false;
+      return Outcome::kAllPass;
   }
-  return false;
+  return Outcome::kUnknown;
 }
 
 }  // namespace
@@ -103,11 +109,12 @@ CodeBounds HiZ::bounds(const HiZWord& word, std::size_t tile) const {
   return all;
 }
 
-std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
-                          const HiZSurface& surface) {
+HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
+                         const HiZSurface& surface) {
   see(must_retire());
   const HiZPlane plane{.z = block.z, .dx = block.z_dx, .dy = block.z_dy, .known = block.z_known != 0};
-  std::uint64_t rejected = 0;
+  Verdict verdict;
+  const bool accept = config_.accept && state.write;
   const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
   const HiZWord stored = word(number);
   const auto row = config_.block_size / config_.tile_size;
@@ -121,13 +128,14 @@ std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, 
              : config_.tile_size == 8 ? tile_words<8>(plane, x, y)
                                       : tile_words<16>(plane, x, y);
     }();
-    const bool none =
-        none_passes(state.func, CodeRange(equation, plane, words, state.format), bounds(stored, at),
-                    lowering_[number * tiles_ + at] == 0, raising_[number * tiles_ + at] == 0);
-    rejected |= std::uint64_t{none} << tile;
+    const Outcome outcome =
+        test(state.func, CodeRange(equation, plane, words, state.format), bounds(stored, at),
+             lowering_[number * tiles_ + at] == 0, raising_[number * tiles_ + at] == 0);
+    verdict.rejected |= std::uint64_t{outcome == Outcome::kNonePasses} << tile;
+    verdict.sure |= std::uint64_t{accept && outcome == Outcome::kAllPass} << tile;
   }
   const DepthMoves moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
-  std::uint64_t left = block.tiles & ~rejected;
+  std::uint64_t left = block.tiles & ~verdict.rejected;
   jobs_ += static_cast<std::uint64_t>(std::popcount(left));
   for (; left != 0; left &= left - 1) {
     const auto tile = static_cast<std::size_t>(std::countr_zero(left));
@@ -139,7 +147,7 @@ std::uint64_t HiZ::decide(const BlockJob& block, const DepthEquation& equation, 
   }
   std::shift_left(jobs_before_.begin(), jobs_before_.end(), 1);
   jobs_before_.back() = jobs_;
-  return rejected;
+  return verdict;
 }
 
 void HiZ::see(std::uint64_t jobs) {

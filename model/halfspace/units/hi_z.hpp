@@ -1,6 +1,7 @@
 /// hi_z: hierarchical Z. Takes tiles out of a block before anything is done for them, where no sample can
-/// pass the depth test (N. Greene, M. Kass, G. Miller, "Hierarchical Z-Buffer Visibility", SIGGRAPH 1993; S.
-/// Morein, "ATI Radeon HyperZ Technology", Graphics Hardware 2000).
+/// pass the depth test, and marks those in which every sample passes (N. Greene, M. Kass, G. Miller,
+/// "Hierarchical Z-Buffer Visibility", SIGGRAPH 1993; S. Morein, "ATI Radeon HyperZ Technology", Graphics
+/// Hardware 2000).
 ///
 /// What it knows of stored depth comes from early_z, which says of each burst's tile what then lies in it.
 /// What a block sees of that is a matter of order, never of time: a tile job is *seen* by block k when at
@@ -33,6 +34,7 @@ constexpr std::uint64_t hi_z_must_see(std::uint64_t before, std::uint64_t lag, s
 
 struct HiZConfig {
   bool enabled = false;
+  bool accept = true;   ///< look for tiles in which every sample passes, too
   int bits = 8;         ///< of a bound, 4 to 32
   int lag = 128;        ///< jobs, 1 or more
   int block_size = 32;  ///< pixels
@@ -85,10 +87,14 @@ class HiZ {
   /// Of these the first so many are seen by the next block.
   [[nodiscard]] std::uint64_t must_retire() const;
 
-  /// The tiles of the next block in which no sample can pass: a mask as in BlockJob.
-  /// `state` is the draw's; `surface` is looked at where it tests depth.
-  std::uint64_t decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
-                       const HiZSurface& surface);
+  /// The tiles of the next block in which no sample can pass, and those in which every one passes and writes:
+  /// masks as in BlockJob. `state` is the draw's; `surface` is looked at where it tests depth.
+  struct Verdict {
+    std::uint64_t rejected = 0;
+    std::uint64_t sure = 0;
+  };
+  Verdict decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
+                 const HiZSurface& surface);
   void retire(const HiZUpdate& update) { retired_.push_back(update); }
 
   /// The whole surface now holds `code`. All jobs must have retired.

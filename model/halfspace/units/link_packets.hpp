@@ -274,6 +274,7 @@ struct QuadBeat {
   std::array<std::int64_t, 2> e{};      ///< of edges 1 and 2 at the tile origin
   std::uint8_t last = 0;                ///< of the burst
   std::array<std::uint8_t, 4> parts{};  ///< bands of rows in which the burst has quads
+  std::array<std::uint8_t, 4> sure{};   ///< those that it overwrites whole
   std::array<std::uint8_t, kMostBeatQuads> index{};
   std::array<std::uint8_t, kMostBeatQuads> mask{};
 
@@ -286,6 +287,7 @@ struct QuadBeat {
     visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
     visit("last", &P::last, &Widths::FlagBits, Sign::kUnsigned);
     visit("parts", &P::parts, &Widths::FlagBits, Sign::kUnsigned, &Widths::ZParts);
+    visit("sure", &P::sure, &Widths::FlagBits, Sign::kUnsigned, &Widths::ZParts);
     visit("index", &P::index, &Widths::QuadIndexBits, Sign::kUnsigned, &Widths::QuadWidth);
     visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::QuadWidth);
   }

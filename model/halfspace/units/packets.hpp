@@ -115,6 +115,7 @@ struct BlockJob {
   std::uint8_t y_first = 0;
   std::uint8_t y_last = 0;
   std::uint64_t tiles = 0;  ///< bit y * (tiles in a row of the block) + x: the triangle may touch it
+  std::uint64_t sure = 0;   ///< of these: every sample of the triangle in it passes, and writes
   std::int64_t z = 0;       ///< HiZPlane at the centre of the block's top left pixel
   std::int64_t z_dx = 0;
   std::int64_t z_dy = 0;
@@ -133,6 +134,7 @@ struct BlockJob {
     visit("y_first", &BlockJob::y_first, &Widths::BlockLog2, Sign::kUnsigned);
     visit("y_last", &BlockJob::y_last, &Widths::BlockLog2, Sign::kUnsigned);
     visit("tiles", &BlockJob::tiles, &Widths::BlockTiles, Sign::kUnsigned);
+    visit("sure", &BlockJob::sure, &Widths::BlockTiles, Sign::kUnsigned);
     visit("z", &BlockJob::z, &Widths::HiZWordBits, Sign::kSigned);
     visit("z_dx", &BlockJob::z_dx, &Widths::HiZStepBits, Sign::kSigned);
     visit("z_dy", &BlockJob::z_dy, &Widths::HiZStepBits, Sign::kSigned);
@@ -148,6 +150,7 @@ struct TileJob {
   std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in
   std::array<std::int32_t, 3> a{};
   std::array<std::int32_t, 3> b{};
+  std::uint8_t sure = 0;     ///< 1: every sample of the triangle in it passes, and writes
   std::uint8_t accept = 0;   ///< bit i: every sample of the tile is inside edge i
   std::uint8_t x_first = 0;  ///< columns and rows inside the bounds, inclusive, counted in the tile
   std::uint8_t x_last = 0;
@@ -162,6 +165,7 @@ struct TileJob {
     visit("e", &TileJob::e, &Widths::EdgeBits, Sign::kSigned);
     visit("a", &TileJob::a, &Widths::StepBits, Sign::kSigned);
     visit("b", &TileJob::b, &Widths::StepBits, Sign::kSigned);
+    visit("sure", &TileJob::sure, &Widths::FlagBits, Sign::kUnsigned);
     visit("accept", &TileJob::accept, &Widths::EdgeCount, Sign::kUnsigned);
     visit("x_first", &TileJob::x_first, &Widths::TileLog2, Sign::kUnsigned);
     visit("x_last", &TileJob::x_last, &Widths::TileLog2, Sign::kUnsigned);
@@ -181,6 +185,7 @@ struct Coverage {
   std::uint8_t slot = 0;
   std::uint16_t tile_x = 0;
   std::uint16_t tile_y = 0;
+  std::uint8_t sure = 0;            ///< as in TileJob
   std::array<std::int64_t, 2> e{};  ///< E of edges 1 and 2 at the tile origin: the depth inputs
   TileMask mask;
 
@@ -189,6 +194,7 @@ struct Coverage {
     visit("slot", &Coverage::slot, &Widths::SlotBits, Sign::kUnsigned);
     visit("tile_x", &Coverage::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("tile_y", &Coverage::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("sure", &Coverage::sure, &Widths::FlagBits, Sign::kUnsigned);
     visit("e", &Coverage::e, &Widths::EdgeBits, Sign::kSigned);
     visit("mask", &Coverage::mask, &Widths::MaskBits, Sign::kUnsigned);
   }

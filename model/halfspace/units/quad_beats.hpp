@@ -25,8 +25,12 @@ std::vector<QuadBeat> quad_beats(const QuadBurst& burst, const Widths& widths) {
     beats.back().mask[place] = quad.mask;
     head.parts[static_cast<std::size_t>(quad.y * widths.ZParts / TileSize)] = 1;
   });
+  const std::uint8_t sure = sure_parts<TileSize>(coverage, widths.ZParts);
   for (QuadBeat& beat : beats) {
     beat.parts = head.parts;
+    for (std::size_t part = 0; part < beat.sure.size(); ++part) {
+      beat.sure[part] = sure >> part & 1;
+    }
     beat.last = &beat == &beats.back() ? 1 : 0;
   }
   return beats;

@@ -30,6 +30,7 @@ void tile_walker(const BlockJob& block, const WalkerConfig& config, Sink& sink) 
     const int y = tile_y * TileSize;
     job.tile_x = static_cast<std::uint16_t>(block.block_x * row_tiles + tile_x);
     job.tile_y = static_cast<std::uint16_t>(block.block_y * row_tiles + tile_y);
+    job.sure = static_cast<std::uint8_t>(block.sure >> tile & 1);
     job.e = edges.at(x, y);
     job.accept = 0;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -25,7 +25,16 @@ struct ZMiss {
   std::uint16_t bytes = 0;          ///< that memory has of the line
   std::uint16_t victim_bytes = 0;   ///< that it gets of the victim
   bool fetch = false;               ///< asked for; else made from the clear value
+  bool overwritten = false;         ///< the burst overwrites it whole: not asked for, and made of anything
   bool write_back = false;          ///< the victim was dirty
+};
+
+/// What a burst wants of the parts of its tile: a bit each.
+struct ZAccess {
+  std::uint8_t touched = 0;
+  std::uint8_t written = 0;
+  std::uint8_t sure = 0;  ///< overwritten whole
+  ZShifts shifts{};       ///< by which those that it wrote to are coded then
 };
 
 /// The misses of a burst, in order of parts.
@@ -43,19 +52,17 @@ class ZCache {
   ZCache(const ZCacheShape& shape, std::uint32_t memory_lines)
       : shape_(shape), tags_(shape), lines_(shape, memory_lines) {}
 
-  /// A burst that touches the parts `touched` of a tile and writes to `written` of them, which are coded by
-  /// `shifts` then.
-  ZMisses access(const ZSurface& surface, std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched,
-                 std::uint8_t written, ZShifts shifts = {}) {
+  ZMisses access(const ZSurface& surface, std::uint32_t tile_x, std::uint32_t tile_y, const ZAccess& access) {
     ZMisses misses;
     for (int i = 0; i < shape_.parts; ++i) {
-      if ((touched >> i & 1) == 0) {
+      if ((access.touched >> i & 1) == 0) {
         continue;
       }
       const std::uint32_t line = surface.line(tile_x, tile_y, shape_.parts, i);
       const ZTags::Lookup found = tags_.lookup(tile_x, tile_y, i, line);
       if (!found.hit) {
-        const bool fetch = !lines_.cleared(line);
+        const bool overwritten = (access.sure >> i & 1) != 0;
+        const bool fetch = !overwritten && !lines_.cleared(line);
         const ZLines::Victim victim = lines_.replace(found.slot, line, surface.line_bytes);
         misses.part[misses.count++] = {
             .line = line,
@@ -63,10 +70,11 @@ class ZCache {
             .bytes = static_cast<std::uint16_t>(lines_.stored_bytes(line, surface.line_bytes)),
             .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
             .fetch = fetch,
+            .overwritten = overwritten,
             .write_back = victim.dirty};
       }
-      if ((written >> i & 1) != 0) {
-        lines_.mark_written(found.slot, shifts.of(i));
+      if ((access.written >> i & 1) != 0) {
+        lines_.mark_written(found.slot, access.shifts.of(i));
       }
     }
     return misses;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/units/packets.hpp"
 #include "halfspace/units/tile_mask.hpp"
 
 namespace halfspace {
@@ -69,6 +70,19 @@ constexpr std::uint8_t parts_of_mask(const TileMask& mask, int parts) {
     found |= static_cast<std::uint8_t>((hit ? 1u : 0u) << (y * parts / TileSize));
   }
   return found;
+}
+
+/// Bit i: the burst of this coverage overwrites part i of the tile whole.
+template <int TileSize>
+constexpr std::uint8_t sure_parts(const Coverage& coverage, int parts) {
+  if (coverage.sure == 0) {
+    return 0;
+  }
+  TileMask holes;
+  for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
+    holes.word[i] = full_mask<TileSize>().word[i] & ~coverage.mask.word[i];
+  }
+  return static_cast<std::uint8_t>(((1u << parts) - 1) & ~parts_of_mask<TileSize>(holes, parts));
 }
 
 }  // namespace halfspace

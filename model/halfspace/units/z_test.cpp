@@ -103,7 +103,7 @@ TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const Ear
   TileMask passed;
   for_each_sample<TileSize>(burst.coverage.mask, [&](int bit) {
     const std::uint32_t code = codes[static_cast<std::size_t>(bit)];
-    const bool pass = depth_passes(state.func, code, stored[bit]);
+    const bool pass = burst.coverage.sure != 0 || depth_passes(state.func, code, stored[bit]);
     passed.word[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{pass} << (bit % 64);
     if (pass && state.write) {
       stored[bit] = code;

@@ -9,15 +9,17 @@
 
 namespace halfspace::passage {
 
-/// The tiles of `block`, of a triangle with this depth equation, that are left. `surface`: the place of the
-/// draw's depth surface, looked at where it tests depth.
-inline std::uint64_t hi_z(HiZ& unit, const BlockJob& block, const DepthEquation& equation,
-                          const HiZSurface& surface, DrawContext& draw) {
-  const std::uint64_t rejected = unit.decide(block, equation, draw.early_z, surface);
+/// What is left of `block`, of a triangle with this depth equation: a block without a tile where that is
+/// nothing. `surface`: the place of the draw's depth surface, looked at where it tests depth.
+inline void hi_z(HiZ& unit, BlockJob& block, const DepthEquation& equation, const HiZSurface& surface,
+                 DrawContext& draw) {
+  const HiZ::Verdict verdict = unit.decide(block, equation, draw.early_z, surface);
   HiZCounters& counters = draw.counters.hi_z;
-  counters.tiles_rejected += static_cast<std::uint64_t>(std::popcount(rejected));
-  counters.blocks_rejected += rejected == block.tiles ? 1 : 0;
-  return block.tiles & ~rejected;
+  counters.tiles_rejected += static_cast<std::uint64_t>(std::popcount(verdict.rejected));
+  counters.blocks_rejected += verdict.rejected == block.tiles ? 1 : 0;
+  counters.tiles_sure += static_cast<std::uint64_t>(std::popcount(verdict.sure));
+  block.tiles &= ~verdict.rejected;
+  block.sure = verdict.sure;
 }
 
 }  // namespace halfspace::passage

@@ -42,13 +42,26 @@ ZShifts coded_parts(const std::uint32_t* codes, std::uint8_t written, const ZSur
   return shifts;
 }
 
+/// What a burst wants of the z cache. `codes`: the tile's, after the burst (TileSize^2, row order).
+template <int TileSize>
+ZAccess z_access(const Coverage& coverage, const TileMask& passed, const std::uint32_t* codes,
+                 const DrawContext& draw, const ZSurface& surface, const Config& config) {
+  const int parts = config.z_cache.parts;
+  const std::uint8_t written = written_parts<TileSize>(passed, draw, parts);
+  return {.touched = touched_parts<TileSize>(coverage, draw, parts),
+          .written = written,
+          .sure = sure_parts<TileSize>(coverage, parts),
+          .shifts = coded_parts<TileSize>(codes, written, surface, config)};
+}
+
 /// Counts a burst that touched `touched` parts, and the lines that moved for it.
 inline void count_z_cache(EarlyZCounters& counters, std::uint8_t touched, const ZMisses& misses) {
   ++counters.z_bursts;
   counters.z_hits += static_cast<std::uint64_t>(std::popcount(touched)) - misses.count;
   counters.z_misses += misses.count;
   for (const ZMiss& part : misses.parts()) {
-    counters.z_cleared += part.fetch ? 0 : 1;
+    counters.z_overwritten += part.overwritten ? 1 : 0;
+    counters.z_cleared += part.fetch || part.overwritten ? 0 : 1;
     counters.bytes_read += part.fetch ? part.bytes : 0;
     counters.z_evicted += part.write_back ? 1 : 0;
     counters.bytes_written += part.write_back ? part.victim_bytes : 0;
@@ -56,11 +69,11 @@ inline void count_z_cache(EarlyZCounters& counters, std::uint8_t touched, const 
 }
 
 /// Both halves of the z cache at once, for engines that take one burst after the other through lookup and
-/// test. `touched` must not be 0.
-inline ZMisses z_cache(ZCache& cache, const ZSurface& surface, const Coverage& coverage, std::uint8_t touched,
-                       std::uint8_t written, ZShifts shifts, DrawContext& draw) {
-  const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, touched, written, shifts);
-  count_z_cache(draw.counters.early_z, touched, misses);
+/// test. The burst must touch a part.
+inline ZMisses z_cache(ZCache& cache, const ZSurface& surface, const Coverage& coverage,
+                       const ZAccess& access, DrawContext& draw) {
+  const ZMisses misses = cache.access(surface, coverage.tile_x, coverage.tile_y, access);
+  count_z_cache(draw.counters.early_z, access.touched, misses);
   return misses;
 }
 

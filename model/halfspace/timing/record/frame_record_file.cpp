@@ -130,9 +130,10 @@ void check_access(const Reader& reader, const FrameRecord& record, const StreamS
                             access.tile_y(), surface.tiles_x, surface.tiles / surface.tiles_x));
   }
   if (access.touched() == 0 || (access.touched() & ~bands) != 0 ||
-      (access.written() & ~access.touched()) != 0) {
-    reader.fail(fmt::format("a burst that touches bands {:04b} and writes {:04b}", access.touched(),
-                            access.written()));
+      (access.written() & ~access.touched()) != 0 || (access.sure() & ~access.written()) != 0 ||
+      access.words()[1] >> 12 != 0) {
+    reader.fail(fmt::format("a burst that touches bands {:04b}, writes {:04b} and overwrites {:04b}",
+                            access.touched(), access.written(), access.words()[1]));
   }
   const Config& config = record.config;
   const int samples = config.tile_walker.tile_size * config.tile_walker.tile_size / config.z_cache.parts;
@@ -222,8 +223,8 @@ void write_record(const std::filesystem::path& path, const FrameRecord& record) 
   writer.list(record.packets.blocks, [&](const StreamBlock& b) { writer.word(b.word()); });
   writer.list(record.packets.jobs, [&](const StreamJob& j) { writer.word(j); });
   writer.list(record.packets.accesses, [&](const StreamAccess& a) {
-    writer.word(a.word());
-    writer.word(a.shifts().bits());
+    writer.word(a.words()[0]);
+    writer.word(a.words()[1]);
   });
   write_bytes(path, compress_gzip(writer.bytes()));
 }
@@ -267,8 +268,8 @@ FrameRecord parse_record(std::span<const std::byte> bytes, const std::string& na
   record.packets.jobs =
       reader.list<StreamJob>(1, [&] { return static_cast<StreamJob>(std::min(reader.word(), 0xFFu)); });
   record.packets.accesses = reader.list<StreamAccess>(2, [&] {
-    const std::uint32_t word = reader.word();
-    return StreamAccess(word, ZShifts(static_cast<std::uint8_t>(std::min(reader.word(), 0xFFu))));
+    const std::uint32_t first = reader.word();
+    return StreamAccess({first, reader.word()});
   });
   reader.end();
   check(reader, record);

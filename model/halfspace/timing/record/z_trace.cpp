@@ -9,11 +9,8 @@
 namespace halfspace {
 namespace {
 
-/// Bands of a record as parts of a cache with fewer.
+/// Bands of a record as parts of a cache with fewer: those of which any band is set.
 std::uint8_t fold(std::uint8_t bands, int band_count, int parts) {
-  if (parts == band_count) {
-    return bands;
-  }
   std::uint8_t folded = 0;
   for (int band = 0; band < band_count; ++band) {
     folded |= static_cast<std::uint8_t>((bands >> band & 1) << (band * parts / band_count));
@@ -97,9 +94,14 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
   trace.rows = memory_lines(places, shape);
   ZCache cache(shape, trace.rows);
   const int bands = stream_bands(tile_size);
-  std::array<std::uint8_t, 16> folded{};
-  for (std::size_t i = 0; i < folded.size(); ++i) {
-    folded[i] = fold(static_cast<std::uint8_t>(i), bands, shape.parts);
+  // By a set of bands, the parts of which any is in it, and those of which all are.
+  std::array<std::uint8_t, 16> any{};
+  std::array<std::uint8_t, 16> all{};
+  const auto every_part = static_cast<std::uint8_t>((1 << shape.parts) - 1);
+  for (std::size_t i = 0; i < any.size(); ++i) {
+    any[i] = fold(static_cast<std::uint8_t>(i), bands, shape.parts);
+    all[i] = static_cast<std::uint8_t>(every_part &
+                                       ~fold(static_cast<std::uint8_t>(~i & 15u), bands, shape.parts));
   }
   const PacketStream& packets = record.packets;
   const StreamTriangle* triangle = packets.triangles.data();
@@ -126,7 +128,10 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
         }
         const StreamAccess& a = packets.accesses[access];
         const ZMisses misses = cache.access(places[segment.surface], a.tile_x(), a.tile_y(),
-                                            folded[a.touched()], folded[a.written()], a.shifts());
+                                            {.touched = any[a.touched()],
+                                             .written = any[a.written()],
+                                             .sure = all[a.sure()],
+                                             .shifts = a.shifts()});
         for (const ZMiss& miss : misses.parts()) {
           trace.z.misses.push_back(miss);
           trace.z.burst.push_back(access);

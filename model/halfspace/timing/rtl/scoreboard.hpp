@@ -225,9 +225,8 @@ class Scoreboard {
       throw RtlError(fmt::format("hi_z: a block in cycle {} that must see {} jobs, of which {} are done",
                                  run_.cycle, hi_z_.must_retire(), retired_));
     }
-    token.block.tiles =
-        passage::hi_z(hi_z_, token.block, token.triangle->depth,
-                      draw.surface == kNoSurface ? HiZSurface{} : run_.blocks[draw.surface], draw);
+    passage::hi_z(hi_z_, token.block, token.triangle->depth,
+                  draw.surface == kNoSurface ? HiZSurface{} : run_.blocks[draw.surface], draw);
     if (token.block.tiles != 0) {
       run_.meter.take(Link::kHiZ, &draw, run_.cycle);
       expect_block(std::move(token));
@@ -312,10 +311,10 @@ class Scoreboard {
     HiZUpdate update;
     if (const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, draw, parts)) {
       update = hi_z_update<TileSize>(stored, touched, parts);
-      const std::uint8_t written = passage::written_parts<TileSize>(passed, draw, parts);
       const ZSurface& place = run_.places[draw.surface];
-      const ZShifts shifts = passage::coded_parts<TileSize>(stored, written, place, run_.config);
-      const ZMisses misses = passage::z_cache(z_cache_, place, coverage, touched, written, shifts, draw);
+      const ZMisses misses = passage::z_cache(
+          z_cache_, place, coverage,
+          passage::z_access<TileSize>(coverage, passed, stored, draw, place, run_.config), draw);
       for (const ZMiss& miss : misses.parts()) {
         if (miss.fetch) {
           memory_.expect_read(miss.line);

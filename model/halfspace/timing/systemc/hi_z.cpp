@@ -77,7 +77,7 @@ void HiZ::decide() {
       meter_.busy(next_);
       DrawContext& draw = *token.draw;
       const HiZSurface place = draw.surface == kNoSurface ? HiZSurface{} : places_[draw.surface];
-      token.block.tiles = passage::hi_z(unit_, token.block, token.triangle->depth, place, draw);
+      passage::hi_z(unit_, token.block, token.triangle->depth, place, draw);
       out_ = next_;
       std::shift_left(last_.begin(), last_.end(), 1);
       last_.back() = token.block.tiles != 0;

@@ -23,6 +23,7 @@ struct PendingToken {
   DrawContext* draw = nullptr;
   BurstToken burst;
   std::uint8_t touched = 0;  ///< bit i: part i has to do with stored depth
+  std::uint8_t sure = 0;     ///< bit i: part i is overwritten whole
   std::uint8_t missed = 0;   ///< bit i: it was not in the cache
   std::uint8_t fetched = 0;  ///< bit i: and was asked for
   std::array<std::uint32_t, kMaxZParts> slot{};

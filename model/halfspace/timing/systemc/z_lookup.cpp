@@ -43,6 +43,8 @@ void ZLookup::look_up(Cycle at) {
   token.touched = with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) {
     return passage::touched_parts<size()>(coverage, *token.draw, parts);
   });
+  token.sure = with_tile_size(run_.config.tile_walker.tile_size,
+                              [&](auto size) { return sure_parts<size()>(coverage, parts); });
   for (int part = 0; part < parts; ++part) {
     if ((token.touched >> part & 1) == 0) {
       continue;
@@ -70,7 +72,8 @@ void ZLookup::look_up(Cycle at) {
   next_ = std::max(next_, last);
 }
 
-/// A missing part, in cycle `earliest` or later: asks memory for it, unless it is only marked cleared.
+/// A missing part, in cycle `earliest` or later: asks memory for it, unless it is only marked cleared or the
+/// burst overwrites it whole.
 /// Returns the cycle.
 Cycle ZLookup::resolve(int part, Cycle earliest) {
   const std::uint32_t line = cache_.line_of(looked_up_, part);
@@ -81,7 +84,7 @@ Cycle ZLookup::resolve(int part, Cycle earliest) {
   while (exit.looked_up) {
     wait(cache_.exit_changed);
   }
-  const bool fetch = !cache_.lines.cleared(line);
+  const bool fetch = (looked_up_.sure >> part & 1) == 0 && !cache_.lines.cleared(line);
   while (exit.write > cache_.writes_done) {
     wait(cache_.exit_changed);
   }

@@ -91,6 +91,7 @@ void ZTest::move_lines(const PendingToken& token, Cycle at) {
                                    .bytes = static_cast<std::uint16_t>(stored),
                                    .victim_bytes = static_cast<std::uint16_t>(victim.bytes),
                                    .fetch = fetched,
+                                   .overwritten = (token.sure >> part & 1) != 0,
                                    .write_back = victim.dirty};
   }
   passage::count_z_cache(token.draw->counters.early_z, token.touched, misses);
