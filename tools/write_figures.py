@@ -10,10 +10,12 @@ of captured frames, which do not ship, are marked. `make docs-figures` runs this
 """
 
 import argparse
+import json
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -165,11 +167,43 @@ def bench_sampled(tools):
     return table(tools, "sampled", *lists)
 
 
+def merging_counts(tools, source, held, folder):
+    """What quad merging counts of a frame, with so many quads held."""
+    options = ["--no-pictures", "--quad-merging", str(held), "--out", folder]
+    output(tools.program, "run", source, *options)
+    return json.loads((folder / "stats.json").read_text())["frame"]["quad_merging"]
+
+
+def quad_merging(tools):
+    """What quad merging prints of a frame, and what it saves of all, by the quads that the buffer holds."""
+    arguments = ["run", "scenes/cc0_truck.ptf.xz", "--quad-merging", "32"]
+    lines = output(tools.program, *arguments).splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("  quad_merging "))
+    example = textwrap.indent("\n".join([" ".join(["halfspace", *arguments]), "  ...", *lines[first:]]), "    ")
+    buffers = (8, 32, 128, 1 << 20)
+    lists = [f"synthetic:{name}:full" for name in ("tiny_grid", "mesh_bunny", "mesh_crowd", "tiny_rand")]
+    columns = ["quads", "fragments a survivor", *(f"{held:,} held" for held in buffers)]
+    columns += [f"fragments a survivor, {buffers[1]} held"]
+    rows = [f"| workload | {' | '.join(columns)} |", "| --- |" + " ---: |" * len(columns)]
+    with tempfile.TemporaryDirectory() as folder:
+        for source in [*SCENES, *lists, *tools.captured]:
+            counts = [merging_counts(tools, source, held, pathlib.Path(folder) / "run") for held in buffers]
+            unmerged, merged = (
+                f"{counts[1][key] / counts[1]['survivors']:.2f}" for key in ("fragments_unmerged", "fragments_shaded")
+            )
+            saved = " | ".join(f"{100 * count['saved']:.1f}%" for count in counts)
+            name = frame_name(source) if isinstance(source, pathlib.Path) else source
+            rows.append(f"| {name} | {counts[1]['quads']:,} | {unmerged} | {saved} | {merged} |")
+    command = f"    halfspace run INPUT --quad-merging N    # N: {', '.join(map(str, buffers))}"
+    return f"{example}\n\n{command}\n\n{marked(chr(10).join(rows), map(frame_name, tools.captured))}"
+
+
 FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
+    "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
     "reference": ("docs/guides/reference.md", reference),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),

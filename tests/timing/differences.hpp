@@ -159,8 +159,9 @@ class Events : public PacketObserver {
   [[nodiscard]] bool wants_decisions() const override { return true; }
   [[nodiscard]] bool wants_tile_jobs() const override { return true; }
   void quad(const QuadEvent& event) override {
-    quads.insert(quads.end(), {event.draw, event.triangle, event.surface, event.x, event.y, event.mask,
-                               event.passed, event.depth[0], event.depth[1], event.depth[2], event.depth[3]});
+    quads.insert(quads.end(),
+                 {event.draw, event.triangle, event.surface, event.x, event.y, event.front, event.mask,
+                  event.passed, event.depth[0], event.depth[1], event.depth[2], event.depth[3]});
     cycles.push_back(event.cycle);
   }
   void decision(const DecisionEvent& event) override {

@@ -30,6 +30,7 @@ struct RunCommand {
   std::string fidelity = "functional";
   std::string out;
   std::string tile_jobs;
+  std::optional<int> quad_merging;
   std::string vcd;
   RtlOptions rtl;
   bool quads = false;
@@ -82,6 +83,7 @@ int run_command(const RunCommand& command) {
   check_fidelity(fidelity, command);
   RunOptions options;
   options.stalls = command.stalls.plan();
+  options.quad_merging = command.quad_merging;
   options.vcd = command.vcd;
   command.rtl.apply(options);
   const TimelineChoice choice = command.timeline.choice();
@@ -154,6 +156,13 @@ void add_run_command(CLI::App& app, int& status) {
       ->needs(out);
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
+  command
+      ->add_option(
+          "--quad-merging", options->quad_merging,
+          "count what merging quads of adjacent triangles behind early_z would save of shading, with a "
+          "buffer of N quads; changes nothing of the run")
+      ->check(CLI::Range(0, kMostMergeQuads))
+      ->type_name("N");
   options->rtl.add_to(*command);
   command->add_option("--vcd", options->vcd, "write a waveform of links and stages (systemc)")
       ->type_name("FILE");

@@ -76,6 +76,23 @@ void print_table(const Frame& frame, const FrameResult& result) {
   }
 }
 
+void print_quad_merging(const QuadMergingResult& merging) {
+  const QuadMergingCounters& c = merging.frame;
+  const auto per_survivor = [&c](std::uint64_t fragments) { return percent(fragments, c.survivors) / 100; };
+  row("quad_merging", quads_shaded(c),
+      fmt::format(
+          "quads shaded with {} held, not {} ({:.1f}% saved); {:.2f} fragments a survivor, not {:.2f}",
+          merging.buffer, c.quads, percent(c.joined, c.quads), per_survivor(fragments_shaded(c)),
+          per_survivor(fragments_unmerged(c))));
+  row("  merged", c.joined,
+      fmt::format("quads joined another; {} pairs, {} triples, {} of four; {} groups evicted", c.pairs,
+                  c.triples, c.quadruples, c.evictions));
+  row("  not merged", quads_shaded(c),
+      fmt::format("quads; {} whole, {} alone, {} not adjacent, {} other facing, {} overlap, {} missed an "
+                  "evicted one",
+                  c.whole, c.alone, c.not_adjacent, c.other_facing, c.overlap, c.missed));
+}
+
 /// What the scoreboard of a verilated run says. Returns whether RTL and model agree.
 bool print_report(const rtl::PacketReport& report) {
   row("model", report.compared,
@@ -94,6 +111,9 @@ bool print_result(const Frame& frame, const RunResult& result) {
     const auto quads = static_cast<double>(result.frame.counters.quad_generator.quads);
     row("cycles", cycles, fmt::format("{:.2f} quads a cycle", quads / static_cast<double>(cycles)));
     print_cycles(result.frame, *result.cycles);
+  }
+  if (result.quad_merging) {
+    print_quad_merging(*result.quad_merging);
   }
   return !result.rtl || print_report(*result.rtl);
 }

@@ -110,7 +110,7 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   const PacketObserver* const observer = watch.observer;
   const bool shows = observer != nullptr &&
                      (observer->wants_quads() || observer->wants_decisions() || observer->wants_tile_jobs());
-  return shows ? "a run whose packets are recorded" : "";
+  return shows ? "a run whose packets are recorded or whose quads are merged" : "";
 }
 
 }  // namespace halfspace::fast

@@ -227,7 +227,7 @@ class InOrderRun {
   }
 
   void show_quads(const Burst& burst, const TileMask& passed) {
-    passage::show_quads<TileSize>(burst.packet, passed, codes_.data(), triangle_.triangle, *draw_,
+    passage::show_quads<TileSize>(burst.packet, passed, codes_.data(), triangle_, *draw_,
                                   [this](const QuadEvent& quad, std::size_t number) {
                                     if (wants_cycles_) {
                                       quads_.add(quad, number);

@@ -19,6 +19,7 @@ struct QuadEvent {
   std::uint32_t surface = kNoSurface;
   std::uint32_t x = 0;  ///< top left pixel
   std::uint32_t y = 0;
+  bool front = false;       ///< the triangle faces front
   std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
   std::uint8_t passed = 0;  ///< the same bits after early-Z
   std::array<std::uint32_t, 4> depth{};  ///< codes; 0 for helpers and where there is no depth surface

@@ -180,23 +180,34 @@ StatsJson read_stats(const fs::path& folder) {
   return stats;
 }
 
+bool frame_has(const StatsJson& stats, const char* part) {
+  return !stats.value("frame", StatsJson::object()).value(part, StatsJson()).is_null();
+}
+
 /// Time is compared where both have it.
-bool has_time(const StatsJson& stats) {
-  return !stats.value("frame", StatsJson::object()).value("time", StatsJson()).is_null();
+bool has_time(const StatsJson& stats) { return frame_has(stats, "time"); }
+
+/// Of the frame and of every draw.
+void remove_part(StatsJson& stats, const char* part) {
+  stats["frame"].erase(part);
+  for (StatsJson& draw : stats["draws"]) {
+    draw.erase(part);
+  }
 }
 
 void remove_time(StatsJson& stats) {
   stats.erase("cycles");
-  stats["frame"].erase("time");
-  for (StatsJson& draw : stats["draws"]) {
-    draw.erase("time");
-  }
+  remove_part(stats, "time");
 }
 
 std::optional<FileDifference> compare_stats(StatsJson a, StatsJson b, bool with_time) {
   if (!with_time) {
     remove_time(a);
     remove_time(b);
+  }
+  if (constexpr const char* kMerging = "quad_merging"; frame_has(a, kMerging) != frame_has(b, kMerging)) {
+    remove_part(a, kMerging);
+    remove_part(b, kMerging);
   }
   std::uint64_t count = 0;
   std::string first;

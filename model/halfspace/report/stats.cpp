@@ -100,6 +100,17 @@ Json draw_time_json(const DrawCycles& draw, const EarlyZCounters& counters) {
           {"memory", memory_json(draw.stats, counters.bytes_read, counters.bytes_written)}};
 }
 
+Json quad_merging_json(const QuadMergingCounters& counters) {
+  Json json;
+  QuadMergingCounters::fields(
+      [&](const char* name, const char* /*help*/, auto member) { json[name] = counters.*member; });
+  json["quads_shaded"] = quads_shaded(counters);
+  json["fragments_unmerged"] = fragments_unmerged(counters);
+  json["fragments_shaded"] = fragments_shaded(counters);
+  json["saved"] = ratio(counters.joined, counters.quads);
+  return json;
+}
+
 Json stalls_json(const StallPlan& plan) {
   Json json = Json::object();
   for (std::size_t i = 0; i < kStallPoints; ++i) {
@@ -156,6 +167,10 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"quads_per_cycle", ratio(result.counters.quad_generator.quads, cycles)}};
     json["frame"]["time"].update(frame_time_json(*run.cycles, result));
   }
+  if (run.quad_merging) {
+    json["frame"]["quad_merging"] = quad_merging_json(run.quad_merging->frame);
+    json["frame"]["quad_merging"]["buffer"] = run.quad_merging->buffer;
+  }
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
@@ -177,6 +192,9 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"counters", counters_json(draw.counters)}});
     if (run.cycles) {
       json["draws"].back()["time"] = draw_time_json(run.cycles->draws[i], draw.counters.early_z);
+    }
+    if (run.quad_merging) {
+      json["draws"].back()["quad_merging"] = quad_merging_json(run.quad_merging->draws[i]);
     }
   }
   json["files"] = files;

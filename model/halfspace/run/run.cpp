@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "halfspace/core/functional.hpp"
+#include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
@@ -48,7 +50,8 @@ RunResult timed(TimedResult result) {
   return {.frame = std::move(result.frame),
           .cycles = std::move(result.cycles),
           .times = std::move(result.times),
-          .rtl = {}};
+          .rtl = {},
+          .quad_merging = {}};
 }
 
 RunResult verilated(const Frame& frame, const Config& config, const EngineOptions& engine,
@@ -62,6 +65,28 @@ RunResult verilated(const Frame& frame, const Config& config, const EngineOption
   RunResult run = timed(std::move(result.timed));
   run.rtl = std::move(result.report);
   return run;
+}
+
+RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options) {
+  const EngineOptions engine{.watch = options.watch,
+                             .stalls = options.stalls,
+                             .packet_times = options.packet_times,
+                             .observer = options.cycle_observer};
+  switch (fidelity) {
+    case Fidelity::kFunctional:
+      return {.frame = run_functional(frame, config, options.watch),
+              .cycles = {},
+              .times = {},
+              .rtl = {},
+              .quad_merging = {}};
+    case Fidelity::kRecurrence:
+      return timed(run_recurrence(frame, config, engine));
+    case Fidelity::kSystemc:
+      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd}));
+    case Fidelity::kRtl:
+      return verilated(frame, config, engine, options);
+  }
+  throw std::logic_error("a fidelity that is not in HALFSPACE_FIDELITIES");
 }
 
 }  // namespace
@@ -83,21 +108,19 @@ void require(Fidelity fidelity, bool given, std::string_view option, bool Fideli
 
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options) {
   check_options(fidelity, options);
-  const EngineOptions engine{.watch = options.watch,
-                             .stalls = options.stalls,
-                             .packet_times = options.packet_times,
-                             .observer = options.cycle_observer};
-  switch (fidelity) {
-    case Fidelity::kFunctional:
-      return {.frame = run_functional(frame, config, options.watch), .cycles = {}, .times = {}, .rtl = {}};
-    case Fidelity::kRecurrence:
-      return timed(run_recurrence(frame, config, engine));
-    case Fidelity::kSystemc:
-      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd}));
-    case Fidelity::kRtl:
-      return verilated(frame, config, engine, options);
+  if (!options.quad_merging) {
+    return run_engine(fidelity, frame, config, options);
   }
-  throw std::logic_error("a fidelity that is not in HALFSPACE_FIDELITIES");
+  QuadMerging merging(frame, *options.quad_merging);
+  RunOptions watched = options;
+  std::optional<ObserverPair> both;
+  if (options.watch.observer != nullptr) {
+    both.emplace(*options.watch.observer, merging);
+  }
+  watched.watch.observer = both ? static_cast<PacketObserver*>(&*both) : &merging;
+  RunResult result = run_engine(fidelity, frame, config, watched);
+  result.quad_merging = merging.finish();
+  return result;
 }
 
 }  // namespace halfspace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "halfspace/config/config.hpp"
@@ -25,6 +26,7 @@ struct RunOptions {
   StallPlan stalls;                         ///< injected; needs packets
   bool packet_times = false;                ///< fill RunResult::times; needs packets
   CycleObserver* cycle_observer = nullptr;  ///< needs a timeline; must outlive the run
+  std::optional<int> quad_merging;          ///< what merging would save, with a buffer of so many quads
   std::filesystem::path vcd;                ///< waveform of links and stages, with or without .vcd; needs vcd
   std::filesystem::path rtl_folder;         ///< where `make rtl` put the verilated pipelines
   std::uint64_t rtl_seed = 0;               ///< decides what the RTL's registers hold before reset
@@ -32,10 +34,10 @@ struct RunOptions {
 };
 
 /// Runs `frame` on the machine of `config`, both valid. Image, counters and events are the same in every
-/// fidelity. Throws InputError where an option is given that the fidelity does not support, or where no
-/// verilated pipeline fits; RtlError and systemc::DeadlockError where a machine comes to rest with work left.
-/// Not for several threads at a time in `systemc`. With `options.watch.threads` above 1 the cycle observer is
-/// called in another thread than the packet observer.
+/// fidelity. Throws InputError where an option is given that the fidelity does not support or whose value is
+/// not legal, or where no verilated pipeline fits; RtlError and systemc::DeadlockError where a machine comes
+/// to rest with work left. Not for several threads at a time in `systemc`. With `options.watch.threads` above
+/// 1 the cycle observer is called in another thread than the packet observer.
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options = {});
 
 }  // namespace halfspace

@@ -9,6 +9,7 @@
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/rtl/packet_check.hpp"
+#include "halfspace/whatif/quad_merging.hpp"
 
 namespace halfspace {
 
@@ -52,9 +53,10 @@ constexpr const FidelityInfo& info(Fidelity fidelity) {
 
 struct RunResult {
   FrameResult frame;
-  std::optional<FrameCycles> cycles;     ///< where the fidelity has time
-  PacketTimes times;                     ///< on request, where the fidelity has time
-  std::optional<rtl::PacketReport> rtl;  ///< of `rtl`: where it differs from the model
+  std::optional<FrameCycles> cycles;              ///< where the fidelity has time
+  PacketTimes times;                              ///< on request, where the fidelity has time
+  std::optional<rtl::PacketReport> rtl;           ///< of `rtl`: where it differs from the model
+  std::optional<QuadMergingResult> quad_merging;  ///< on request
 };
 
 }  // namespace halfspace

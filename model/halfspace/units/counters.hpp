@@ -1,7 +1,7 @@
 /// What the front end and the units count. One list a unit declares, names and explains its counters.
 #pragma once
 
-#include <cstdint>
+#include "halfspace/units/counter_struct.hpp"
 
 namespace halfspace {
 
@@ -69,24 +69,6 @@ namespace halfspace {
   C(bytes_written,     "written back, the flush at the end not counted")
 // clang-format on
 
-/// Defines struct NAME of 64-bit counters, with fields(visit) calling visit(name, help, member) for each, and
-/// +=.
-#define HALFSPACE_COUNTER_STRUCT(NAME, LIST)                                    \
-  struct NAME {                                                                 \
-    LIST(HALFSPACE_COUNTER_MEMBER)                                              \
-    template <class Visit>                                                      \
-    static void fields(Visit&& visit) {                                         \
-      using Self = NAME;                                                        \
-      LIST(HALFSPACE_COUNTER_VISIT)                                             \
-    }                                                                           \
-    NAME& operator+=(const NAME& other) {                                       \
-      fields([&](auto, auto, auto member) { this->*member += other.*member; }); \
-      return *this;                                                             \
-    }                                                                           \
-  };
-#define HALFSPACE_COUNTER_MEMBER(name, help) std::uint64_t name = 0;
-#define HALFSPACE_COUNTER_VISIT(name, help) visit(#name, help, &Self::name);
-
 HALFSPACE_COUNTER_STRUCT(FrontEndCounters, HALFSPACE_FRONT_END_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(SetupCounters, HALFSPACE_SETUP_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(BlockWalkerCounters, HALFSPACE_BLOCK_WALKER_COUNTERS)
@@ -95,10 +77,6 @@ HALFSPACE_COUNTER_STRUCT(TileWalkerCounters, HALFSPACE_TILE_WALKER_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EdgeEvaluatorCounters, HALFSPACE_EDGE_EVALUATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(QuadGeneratorCounters, HALFSPACE_QUAD_GENERATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EarlyZCounters, HALFSPACE_EARLY_Z_COUNTERS)
-
-#undef HALFSPACE_COUNTER_MEMBER
-#undef HALFSPACE_COUNTER_VISIT
-#undef HALFSPACE_COUNTER_STRUCT
 
 /// All counters of a draw, a surface or a frame.
 struct Counters {

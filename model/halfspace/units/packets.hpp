@@ -99,6 +99,7 @@ struct SetupTriangle {
   PixelRect bounds;  ///< pixels whose centres the bounding box, the scissor and the target all hold
   DepthEquation depth;
   std::uint32_t triangle = 0;
+  bool front = false;  ///< faces front; only who looks at quads asks
 };
 
 /// block_walker -> tile_walker: a block that a triangle may touch.

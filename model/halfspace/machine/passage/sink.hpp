@@ -68,14 +68,15 @@ void sink(const TileMask& covered, const TileMask& passed, int tile_x, int tile_
 /// leave. `codes`: TileSize^2 depth codes, all that is shown of a sample that is covered.
 template <int TileSize, class Show>
 void show_quads(const QuadBurst& burst, const TileMask& passed, const std::uint32_t* codes,
-                std::uint32_t triangle, const DrawContext& draw, Show&& show) {
+                const SetupTriangle& triangle, const DrawContext& draw, Show&& show) {
   std::size_t number = 0;
   for_each_quad<TileSize>(burst, [&](const Quad& quad) {
     QuadEvent event{.draw = draw.draw,
-                    .triangle = triangle,
+                    .triangle = triangle.triangle,
                     .surface = draw.surface,
                     .x = static_cast<std::uint32_t>(burst.coverage.tile_x * TileSize + quad.x),
                     .y = static_cast<std::uint32_t>(burst.coverage.tile_y * TileSize + quad.y),
+                    .front = triangle.front,
                     .mask = quad.mask,
                     .passed = quad_bits<TileSize>(passed, quad.x, quad.y)};
     for (int i = 0; i < 4; ++i) {

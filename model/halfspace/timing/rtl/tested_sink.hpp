@@ -95,7 +95,7 @@ class TestedSink {
     }
     ++bursts_taken_;
     DrawContext& draw = *token.draw;
-    const std::uint32_t triangle = token.triangle->triangle;
+    const SetupTriangle& triangle = *token.triangle;
     run_.meter.give_back(Link::kEarlyZ, run_.cycle + 1);
     run_.meter.burst_left(draw, run_.cycle);
     passage::count_z_test(draw, popcount(covered_), popcount(passed_));
@@ -104,7 +104,7 @@ class TestedSink {
         (beat.tile_x >= surface->codes.tiles_x() || beat.tile_y >= surface->codes.tiles_y())) {
       return;  // its packet differs, and is reported
     }
-    passage::sink<TileSize>(covered_, passed_, beat.tile_x, beat.tile_y, triangle, draw, surface);
+    passage::sink<TileSize>(covered_, passed_, beat.tile_x, beat.tile_y, triangle.triangle, draw, surface);
     if (draw.record_quads) {
       const QuadBurst burst =
           quad_generator<TileSize>({.tile_x = beat.tile_x, .tile_y = beat.tile_y, .mask = covered_});

@@ -38,9 +38,9 @@ void Sink::show(const TestedToken& token, Cycle first_beat) {
   const DrawContext& draw = *token.draw;
   const QuadBurst& burst = token.burst.burst.packet;
   const Coverage& coverage = burst.coverage;
-  const std::uint32_t triangle = token.burst.triangle->triangle;
-  passage::sink<TileSize>(coverage.mask, token.passed, coverage.tile_x, coverage.tile_y, triangle, draw,
-                          run_.surface(draw));
+  const SetupTriangle& triangle = *token.burst.triangle;
+  passage::sink<TileSize>(coverage.mask, token.passed, coverage.tile_x, coverage.tile_y, triangle.triangle,
+                          draw, run_.surface(draw));
   if (draw.record_quads) {
     const auto width = static_cast<Cycle>(run_.config.early_z.quads_per_cycle);
     passage::show_quads<TileSize>(burst, token.passed, token.codes.data(), triangle, draw,
