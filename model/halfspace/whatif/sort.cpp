@@ -67,6 +67,7 @@ Acted sort(Frame& frame, SortOrder order) {
     }
     std::ranges::stable_sort(keyed, {}, &std::pair<double, Command>::first);
     std::vector<Command> out;
+    out.reserve(draws.size());
     for (const auto& [depth, draw] : keyed) {
       out.push_back(draw);
     }
