@@ -198,6 +198,69 @@ def quad_merging(tools):
     return f"{example}\n\n{command}\n\n{marked(chr(10).join(rows), map(frame_name, tools.captured))}"
 
 
+def run_stats(tools, *arguments):
+    """stats.json of a timed run."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "result"
+        output(tools.program, "run", *arguments, "--fidelity", "recurrence", "--no-pictures", "--out", out)
+        return json.loads((out / "stats.json").read_text())
+
+
+def what_if_demo(tools):
+    """The end of what a run with a what-if prints."""
+    text = output(tools.program, "run", "scenes/cc0_truck.ptf.xz", "--fidelity", "recurrence", "--prepass")
+    return f"```text\n{text[text.index('  what if'):]}\n```"
+
+
+def what_if(tools):
+    """What each what-if does to each frame, as ratios of with and without."""
+    kinds = ["--prepass", "--delay 1000", "--sort front-to-back", "--sort back-to-front", "--order alternate"]
+    ratios = ["shaded", "fragments", "depth_read", "depth_written", "cycles"]
+    text = [
+        "    halfspace run FRAME --fidelity recurrence OPTION             # FRAME FRAME for --order",
+        "",
+        f"With / without{'; frames marked *captured* do not ship' if tools.captured else ''}.",
+        "",
+        f"| frame | option | draws that it acts on | in ranges | shaded without | {' | '.join(ratios)} |",
+        "|---|---|" + "---:|" * (len(ratios) + 3),
+    ]
+    idle = []  # frames in which nothing may move
+    for path in [path for path in [*SCENES, *tools.captured] if frame_name(path) != "vkcube"]:
+        for kind in kinds:
+            frames = [path] * (2 if "--order" in kind else 1)
+            found = run_stats(tools, *frames, *kind.split())["what_if"]
+            acted = found["applied"][0]
+            if acted["draws"] == 0:
+                idle += [frame_name(path)] if frame_name(path) not in idle else []
+                continue
+            cells = [f"{found[name]['ratio']:.3f}" for name in ratios]
+            text.append(
+                f"| {frame_name(path)} | `{kind}` | {acted['draws']} | {acted['ranges']} "
+                f"| {found['shaded']['without']:,} | {' | '.join(cells)} |"
+            )
+    if idle:
+        text += ["", f"Nothing may move in {' and '.join(idle)}."]
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
+def what_if_lod(tools):
+    """Triangles, work and cycles of two meshes by the error that is allowed."""
+    text = ["    halfspace run INPUT --fidelity recurrence --lod PIXELS", ""]
+    text += ["| INPUT | PIXELS | draws simplified | triangles | fragments | shaded | cycles |"]
+    text += ["|---|" + "---:|" * 6]
+    for path in ("scenes/cc0_truck.ptf.xz", "synthetic:mesh_bunny:full"):
+        for pixels in ("0.125", "0.25", "0.5", "1", "2", "4", "8", "16", "32"):
+            found = run_stats(tools, path, "--lod", pixels)["what_if"]
+            names = ("triangles", "fragments", "shaded", "cycles")
+            name = pathlib.Path(path).name.split(".")[0]
+            if pixels == "0.125":
+                cells = " | ".join(f"{found[each]['without']:,}" for each in names)
+                text.append(f"| {name} | as it is | | {cells} |")
+            cells = " | ".join(f"{found[each]['with']:,}" for each in names)
+            text.append(f"| {name} | {pixels} | {found['applied'][0]['draws']} | {cells} |")
+    return "\n".join(text)
+
+
 FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
@@ -205,6 +268,9 @@ FIGURES = {
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
     "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
     "reference": ("docs/guides/reference.md", reference),
+    "what-if-demo": ("docs/guides/whatif.md", what_if_demo),
+    "what-if-lod": ("docs/guides/whatif.md", what_if_lod),
+    "what-if": ("docs/guides/whatif.md", what_if),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),

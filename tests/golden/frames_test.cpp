@@ -1,4 +1,5 @@
-// Captured frames: counts against an independent rasterizer's, depth against the driver's.
+// Captured frames: counts against an independent rasterizer's, depth against the driver's and in other
+// orders.
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,10 +10,13 @@
 #include <optional>
 #include <sstream>
 
+#include "../result_difference.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/report/npy.hpp"
 #include "halfspace/scene/ptf.hpp"
+#include "halfspace/whatif/depth_ahead.hpp"
+#include "halfspace/whatif/sort.hpp"
 
 using namespace halfspace;
 namespace fs = std::filesystem;
@@ -169,39 +173,68 @@ void check_depth(const std::string& name) {
   REQUIRE(compared > 0);
 }
 
+/// No what-if of order changes the depth of any surface.
+void check_orders(const std::string& name) {
+  const Frame frame = load_frame(name);
+  const FrameResult plain = run_functional(frame, {});
+  const auto check = [&](const char* what, const auto& act) {
+    CAPTURE(name, what);
+    Frame changed = frame;
+    act(changed);
+    const FrameResult result = run_functional(changed, {});
+    REQUIRE(result.surfaces.size() == plain.surfaces.size());
+    for (std::size_t s = 0; s < plain.surfaces.size(); ++s) {
+      CHECK(halfspace::testing::image_difference("surface " + std::to_string(s), result.surfaces[s].codes,
+                                                 plain.surfaces[s].codes) == "");
+    }
+  };
+  check("prepass", [](Frame& f) { whatif::prepass(f); });
+  check("delay", [](Frame& f) { whatif::delay(f, 1000); });
+  check("front to back", [](Frame& f) { whatif::sort(f, whatif::SortOrder::kFrontToBack); });
+  check("back to front", [](Frame& f) { whatif::sort(f, whatif::SortOrder::kBackToFront); });
+  check("backwards", [](Frame& f) { whatif::reverse(f); });
+}
+
 }  // namespace
 
 // A frame that is not there skips its own case only.
 TEST_CASE("vkcube", "[golden]") {
   check_counts("vkcube");
   check_depth("vkcube");
+  check_orders("vkcube");
 }
 
 TEST_CASE("cc0_truck", "[golden]") {
   check_counts("cc0_truck");  // made from a model, so there is no driver's depth
+  check_orders("cc0_truck");
 }
 
 TEST_CASE("glmark2_ideas", "[golden]") {
   check_counts("glmark2_ideas");
   check_depth("glmark2_ideas");
+  check_orders("glmark2_ideas");
 }
 
 TEST_CASE("glmark2_shadow", "[golden]") {
   check_counts("glmark2_shadow");
   check_depth("glmark2_shadow");
+  check_orders("glmark2_shadow");
 }
 
 TEST_CASE("stk_snowmountain", "[golden]") {
   check_counts("stk_snowmountain");
   check_depth("stk_snowmountain");
+  check_orders("stk_snowmountain");
 }
 
 TEST_CASE("openarena_gl2", "[golden]") {
   check_counts("openarena_gl2");
   check_depth("openarena_gl2");
+  check_orders("openarena_gl2");
 }
 
 TEST_CASE("warzone2100_vulkan", "[golden]") {
   check_counts("warzone2100_vulkan");
   check_depth("warzone2100_vulkan");
+  check_orders("warzone2100_vulkan");
 }

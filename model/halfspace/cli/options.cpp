@@ -9,6 +9,7 @@
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/scene/validate.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
 
 namespace halfspace {
@@ -110,18 +111,27 @@ Config MachineOptions::config() const {
   return config;
 }
 
-void InputOptions::add_to(CLI::App& command) {
-  command
-      .add_option("INPUT", path,
-                  "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
-                  "'halfspace info --help' lists the names")
-      ->required();
+CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& more) {
+  CLI::Option* input =
+      command
+          .add_option("INPUT", paths,
+                      "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
+                      "'halfspace info --help' lists the names" +
+                          more)
+          ->required();
   command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
       ->type_name("X,Y,Z");
   command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
       ->type_name("X,Y,Z");
   command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")->capture_default_str();
   command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")->type_name("WxH");
+  return input;
+}
+
+void InputOptions::add_to(CLI::App& command) { add_input_to(command, "")->expected(1); }
+
+void InputOptions::add_several_to(CLI::App& command) {
+  add_input_to(command, ". Several are drawn one after the other, as frames of one program");
 }
 
 Camera InputOptions::camera() const {
@@ -145,7 +155,47 @@ Camera InputOptions::camera() const {
   return camera;
 }
 
-Frame InputOptions::frame() const { return load(path, camera()); }
+Frame InputOptions::frame() const { return load(paths.front(), camera()); }
+
+std::vector<Frame> InputOptions::frames() const {
+  std::vector<Frame> frames;
+  frames.reserve(paths.size());
+  for (const std::string& path : paths) {
+    frames.push_back(load(path, camera()));
+  }
+  return frames;
+}
+
+void WhatIfOptions::add_to(CLI::App& command) {
+  constexpr const char* kGroup = "What if, compared with the frame as it is";
+  command.add_option("--lod", lod_pixels, "simplify meshes, by an error of at most so many pixels")
+      ->type_name("PIXELS")
+      ->group(kGroup);
+  command.add_option("--sort", sort, "sort opaque draws by their farthest depth")
+      ->check(CLI::IsMember({"front-to-back", "back-to-front"}))
+      ->group(kGroup);
+  command.add_option("--order", order, "alternate: walk every second INPUT backwards")
+      ->check(CLI::IsMember({"alternate"}))
+      ->group(kGroup);
+  command.add_flag("--prepass", prepass, "lay the depth of opaque draws before they are shaded")
+      ->group(kGroup);
+  command
+      .add_option("--delay", delay,
+                  "delay stream: have the depth of so many triangles go ahead of the one that is shaded")
+      ->check(CLI::Range(std::uint64_t{1}, kMaxFrameTriangles))
+      ->type_name("TRIANGLES")
+      ->group(kGroup);
+}
+
+whatif::WhatIf WhatIfOptions::what_if() const {
+  whatif::WhatIf wanted{
+      .lod_pixels = lod_pixels, .order = {}, .alternate = !order.empty(), .prepass = prepass, .delay = delay};
+  if (!sort.empty()) {
+    wanted.order =
+        sort == "front-to-back" ? whatif::SortOrder::kFrontToBack : whatif::SortOrder::kBackToFront;
+  }
+  return wanted;
+}
 
 void CoreOption::add_to(CLI::App& command) {
   command

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/rtl/verilated_pipeline.hpp"
 #include "halfspace/timing/stall_plan.hpp"
+#include "halfspace/whatif/what_if.hpp"
 
 namespace halfspace {
 
@@ -43,15 +46,33 @@ struct ThreadsOption {
 
 /// INPUT and, for meshes, the camera.
 struct InputOptions {
-  std::string path;
+  std::vector<std::string> paths;  ///< one, or more where several are taken
   std::string eye;
   std::string at;
   std::string size;
   float fov_degrees = 60;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] Camera camera() const;  ///< throws InputError
-  [[nodiscard]] Frame frame() const;    ///< loaded and validated; throws InputError
+  /// Takes several, which follow each other.
+  void add_several_to(CLI::App& command);
+  [[nodiscard]] Camera camera() const;              ///< throws InputError
+  [[nodiscard]] Frame frame() const;                ///< loaded and validated; throws InputError
+  [[nodiscard]] std::vector<Frame> frames() const;  ///< all of them; throws InputError
+
+ private:
+  CLI::Option* add_input_to(CLI::App& command, const std::string& more);
+};
+
+/// --lod, --sort, --order, --prepass and --delay.
+struct WhatIfOptions {
+  std::optional<double> lod_pixels;
+  std::string sort;
+  std::string order;
+  bool prepass = false;
+  std::optional<std::uint64_t> delay;
+
+  void add_to(CLI::App& command);
+  [[nodiscard]] whatif::WhatIf what_if() const;
 };
 
 /// --stall and --seed: what is injected into a run that has time.

@@ -14,6 +14,7 @@ namespace {
 
 struct RecordOptions {
   InputOptions input;
+  WhatIfOptions what_if;
   MachineOptions machine;
   CoreOption core;
   std::string out;
@@ -30,7 +31,7 @@ class RecordObserver final : public PacketObserver {
 
 void record(const RecordOptions& options) {
   const Config config = options.machine.config();
-  const Frame frame = options.input.frame();
+  const Frame frame = whatif::apply(options.input.frames(), options.what_if.what_if()).frame;
   RecordObserver observer(frame.name);
   const FrameRecord record = record_frame(
       frame, config, {.count_pixels = false, .observer = &observer, .core = options.core.core()});
@@ -46,7 +47,8 @@ void record(const RecordOptions& options) {
 void add_record_command(CLI::App& app, int& /*status*/) {
   auto options = std::make_shared<RecordOptions>();
   CLI::App* command = app.add_subcommand("record", "record the packets of a frame, for `halfspace retime`");
-  options->input.add_to(*command);
+  options->input.add_several_to(*command);
+  options->what_if.add_to(*command);
   options->machine.add_to(*command);
   options->core.add_to(*command);
   command->add_option("--out", options->out, "file to write")->type_name("RECORD")->required();

@@ -15,13 +15,16 @@
 #include "halfspace/report/result_files.hpp"
 #include "halfspace/report/tile_job_file.hpp"
 #include "halfspace/report/timeline.hpp"
+#include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run.hpp"
+#include "halfspace/whatif/sequence.hpp"
 
 namespace halfspace {
 namespace {
 
 struct RunCommand {
   InputOptions input;
+  WhatIfOptions what_if;
   MachineOptions machine;
   CoreOption core;
   ThreadsOption threads;
@@ -77,6 +80,18 @@ class RunObserver final : public Recorder {
   std::optional<TileJobWriter> jobs_;
 };
 
+/// The same run of the frame as it is, for its work alone.
+RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& with) {
+  RunObserver observer(frame, config, {}, "");
+  RunOptions options = with;
+  options.cycle_observer = nullptr;
+  options.vcd.clear();
+  options.wave.clear();
+  options.watch = {
+      .count_pixels = false, .observer = &observer, .core = with.watch.core, .threads = with.watch.threads};
+  return run(fidelity, frame, config, options);
+}
+
 /// Returns the exit status.
 int run_command(const RunCommand& command) {
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -88,7 +103,10 @@ int run_command(const RunCommand& command) {
   command.rtl.apply(options);
   const TimelineChoice choice = command.timeline.choice();
   const Config config = command.machine.config();
-  const Frame frame = command.input.frame();
+  const whatif::WhatIf what_if = command.what_if.what_if();
+  std::vector<Frame> frames = command.input.frames();
+  const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
+  const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
   std::optional<OutputFolder> folder;
   Recorder::Options record;
   if (!command.out.empty()) {
@@ -117,11 +135,21 @@ int run_command(const RunCommand& command) {
   if (timeline) {
     timeline->finish(result.cycles->cycles);
   }
+  std::optional<WhatIfReport> report;
+  bool agree = true;
+  if (as_it_is) {
+    const RunResult without = run_without(fidelity, *as_it_is, config, options);
+    report = {.applied = applied, .without = work_of(*as_it_is, without), .with = work_of(frame, result)};
+    agree = !without.rtl || without.rtl->different == 0;
+  }
   if (folder) {
-    write_result_files(*folder, frame, config, fidelity, options.stalls, result);
+    write_result_files(*folder, frame, config, fidelity, options.stalls, result, report);
     folder->commit();
   }
-  const bool agree = print_result(frame, result);
+  agree = print_result(frame, result) && agree;
+  if (report) {
+    print_what_if(*report);
+  }
   if (folder) {
     fmt::print("  results in {}\n", command.out);
   }
@@ -133,7 +161,8 @@ int run_command(const RunCommand& command) {
 void add_run_command(CLI::App& app, int& status) {
   auto options = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
-  options->input.add_to(*command);
+  options->input.add_several_to(*command);
+  options->what_if.add_to(*command);
   options->machine.add_to(*command);
   std::vector<std::string> fidelities;
   fidelities.reserve(kFidelityInfo.size());

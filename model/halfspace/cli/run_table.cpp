@@ -118,4 +118,18 @@ bool print_result(const Frame& frame, const RunResult& result) {
   return !result.rtl || print_report(*result.rtl);
 }
 
+void print_what_if(const WhatIfReport& report) {
+  for (const whatif::Applied& applied : report.applied) {
+    const whatif::Acted& acted = applied.acted;
+    const std::string where = acted.ranges == 0 ? "" : fmt::format(" in {} ranges", acted.ranges);
+    fmt::print("  what if {}: acts on {} draws{}\n", applied.name, acted.draws, where);
+  }
+  fmt::print("  {:<16}{:>12}{:>13}  with / without\n", "", "without", "with");
+  for (const WhatIfRow& row : rows(report)) {
+    const std::optional<double> ratio = row.ratio();
+    fmt::print("  {:<16}{:>12}{:>13}  {}\n", row.name, row.without, row.with,
+               ratio ? fmt::format("{:.3f}", *ratio) : "-");
+  }
+}
+
 }  // namespace halfspace

@@ -1,6 +1,7 @@
 /// What a run prints for people.
 #pragma once
 
+#include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 
@@ -8,5 +9,8 @@ namespace halfspace {
 
 /// Prints the table of a run. Returns whether RTL and model agree, where there is RTL.
 bool print_result(const Frame& frame, const RunResult& result);
+
+/// Prints what was changed, and the work without and with it.
+void print_what_if(const WhatIfReport& report);
 
 }  // namespace halfspace

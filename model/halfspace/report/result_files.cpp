@@ -38,7 +38,8 @@ void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t numb
 }  // namespace
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
-                        const StallPlan& stalls, const RunResult& result) {
+                        const StallPlan& stalls, const RunResult& result,
+                        const std::optional<WhatIfReport>& what_if) {
   for (std::size_t i = 0; i < result.frame.surfaces.size(); ++i) {
     const Surface& surface = result.frame.surfaces[i];
     if (surface.codes.empty()) {
@@ -56,7 +57,7 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     write_png(picture("quads"), quad_picture(surface));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);
-  write_stats(stats, frame, config, fidelity, stalls, result, folder.files());
+  write_stats(stats, frame, config, fidelity, stalls, result, what_if, folder.files());
 }
 
 }  // namespace halfspace

@@ -122,6 +122,20 @@ Json stalls_json(const StallPlan& plan) {
   return json;
 }
 
+Json what_if_json(const WhatIfReport& report) {
+  Json json{{"applied", Json::array()}};
+  for (const whatif::Applied& applied : report.applied) {
+    json["applied"].push_back(
+        {{"name", applied.name}, {"draws", applied.acted.draws}, {"ranges", applied.acted.ranges}});
+  }
+  for (const WhatIfRow& row : rows(report)) {
+    const std::optional<double> ratio = row.ratio();
+    json[std::string(row.name)] = {
+        {"without", row.without}, {"with", row.with}, {"ratio", ratio ? Json(*ratio) : Json()}};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::uint64_t memory_bytes_read(const FrameResult& result) {
@@ -135,7 +149,7 @@ std::uint64_t memory_bytes_written(const FrameResult& result) {
 
 void write_stats(const std::filesystem::path& path, const Frame& frame, const Config& config,
                  Fidelity fidelity, const StallPlan& stalls, const RunResult& run,
-                 const std::vector<std::string>& files) {
+                 const std::optional<WhatIfReport>& what_if, const std::vector<std::string>& files) {
   const FrameResult& result = run.frame;
   const bool packets = info(fidelity).packets;
   Json json;
@@ -151,6 +165,9 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
     json["config"][key.name] = key.value;
   }
   json["config_hash"] = config_hash(config);
+  if (what_if) {
+    json["what_if"] = what_if_json(*what_if);
+  }
   json["frame"] = {{"name", frame.name},
                    {"targets", frame.targets.size()},
                    {"commands", frame.commands.size()},
