@@ -37,21 +37,19 @@ class CodeRange {
   int exponent_;
 };
 
-enum class Outcome : std::uint8_t { kUnknown, kNonePasses, kAllPass };
-
 /// What becomes of the triangle's codes against what lies within `bounds`; which of its ends count.
-Outcome test(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, bool least_counts,
-             bool most_counts) {
+HiZOutcome test(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, bool least_counts,
+                bool most_counts) {
   const auto at_least = [&](std::uint64_t code) { return most_counts && codes.at_least(code); };
   const auto below = [&](std::uint64_t code) { return least_counts && codes.below(code); };
   const std::uint64_t least = bounds.least;
   const std::uint64_t most = bounds.most;
   const auto outcome = [](bool none, bool all) {
-    return none ? Outcome::kNonePasses : all ? Outcome::kAllPass : Outcome::kUnknown;
+    return none ? HiZOutcome::kNonePasses : all ? HiZOutcome::kAllPass : HiZOutcome::kUnknown;
   };
   switch (func) {
     case DepthFunc::kNever:
-      return Outcome::kNonePasses;
+      return HiZOutcome::kNonePasses;
     case DepthFunc::kLess:
       return outcome(at_least(most), below(least));
     case DepthFunc::kLequal:
@@ -65,12 +63,25 @@ Outcome test(DepthFunc func, const CodeRange& codes, const CodeBounds& bounds, b
     case DepthFunc::kNotEqual:
       return outcome(false, at_least(most + 1) || below(least));
     case DepthFunc::kAlways:
-      return Outcome::kAllPass;
+      return HiZOutcome::kAllPass;
   }
-  return Outcome::kUnknown;
+  return HiZOutcome::kUnknown;
 }
 
 }  // namespace
+
+HiZOutcome hi_z_outcome(const HiZConfig& config, const BlockJob& block, int tile,
+                        const DepthEquation& equation, const EarlyZState& state, const StoredBounds& stored) {
+  const HiZPlane plane{.z = block.z, .dx = block.z_dx, .dy = block.z_dy, .known = block.z_known != 0};
+  const int row = config.block_size / config.tile_size;
+  const int x = tile % row * config.tile_size;
+  const int y = tile / row * config.tile_size;
+  const WordBounds words = config.tile_size == 4   ? tile_words<4>(plane, x, y)
+                           : config.tile_size == 8 ? tile_words<8>(plane, x, y)
+                                                   : tile_words<16>(plane, x, y);
+  return test(state.func, CodeRange(equation, plane, words, state.format), stored.bounds, stored.least_counts,
+              stored.most_counts);
+}
 
 HiZ::HiZ(const HiZConfig& config, std::uint32_t blocks) : config_(config) {
   const auto row = static_cast<std::size_t>(config.block_size / config.tile_size);
@@ -112,27 +123,19 @@ CodeBounds HiZ::bounds(const HiZWord& word, std::size_t tile) const {
 HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
                          const HiZSurface& surface) {
   see(must_retire());
-  const HiZPlane plane{.z = block.z, .dx = block.z_dx, .dy = block.z_dy, .known = block.z_known != 0};
   Verdict verdict;
   const bool accept = config_.accept && state.write;
   const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
   const HiZWord stored = word(number);
-  const auto row = config_.block_size / config_.tile_size;
   for (std::uint64_t left = state.test ? block.tiles : 0; left != 0; left &= left - 1) {
     const int tile = std::countr_zero(left);
     const auto at = static_cast<std::size_t>(tile);
-    const WordBounds words = [&] {
-      const int x = tile % row * config_.tile_size;
-      const int y = tile / row * config_.tile_size;
-      return config_.tile_size == 4   ? tile_words<4>(plane, x, y)
-             : config_.tile_size == 8 ? tile_words<8>(plane, x, y)
-                                      : tile_words<16>(plane, x, y);
-    }();
-    const Outcome outcome =
-        test(state.func, CodeRange(equation, plane, words, state.format), bounds(stored, at),
-             lowering_[number * tiles_ + at] == 0, raising_[number * tiles_ + at] == 0);
-    verdict.rejected |= std::uint64_t{outcome == Outcome::kNonePasses} << tile;
-    verdict.sure |= std::uint64_t{accept && outcome == Outcome::kAllPass} << tile;
+    const HiZOutcome outcome = hi_z_outcome(config_, block, tile, equation, state,
+                                            {.bounds = bounds(stored, at),
+                                             .least_counts = lowering_[number * tiles_ + at] == 0,
+                                             .most_counts = raising_[number * tiles_ + at] == 0});
+    verdict.rejected |= std::uint64_t{outcome == HiZOutcome::kNonePasses} << tile;
+    verdict.sure |= std::uint64_t{accept && outcome == HiZOutcome::kAllPass} << tile;
   }
   const DepthMoves moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
   std::uint64_t left = block.tiles & ~verdict.rejected;

@@ -73,6 +73,19 @@ HiZUpdate hi_z_update(const std::uint32_t* codes, std::uint8_t touched, int part
   return update;
 }
 
+enum class HiZOutcome : std::uint8_t { kUnknown, kNonePasses, kAllPass };
+
+/// What is stored in a tile, and which ends of it count.
+struct StoredBounds {
+  CodeBounds bounds;
+  bool least_counts = true;
+  bool most_counts = true;
+};
+
+/// What becomes of the samples that a triangle may have in a tile of the block.
+HiZOutcome hi_z_outcome(const HiZConfig& config, const BlockJob& block, int tile,
+                        const DepthEquation& equation, const EarlyZState& state, const StoredBounds& stored);
+
 /// The unit's state. Everything is called in order: decide() for each block, which numbers its jobs from
 /// jobs() on; retire() for each job in the order of numbers, when it is through early_z. decide() needs the
 /// first must_retire() of them.
