@@ -167,6 +167,38 @@ def bench_sampled(tools):
     return table(tools, "sampled", *lists)
 
 
+def hi_z_kills(tools):
+    """What hi_z stops of the bursts that die."""
+    inputs = [*SCENES[:1], *tools.captured, "synthetic:large_ftb:full"]
+    method, rows = output(tools.program, "bench", "hi-z", *inputs).split("\n\n", 1)
+    command = "    halfspace bench hi-z FRAME..."
+    return f"{command}\n\n{method[0].upper()}{method[1:]}.\n\n{marked(rows, map(frame_name, tools.captured))}"
+
+
+def hi_z_machines(tools):
+    """Cycles and bytes of depth with hi_z and without, on the named machines."""
+    machines = sorted((ROOT / "configs").glob("*.toml"))
+    rows = [f"| frame | {' | '.join(machine.stem for machine in machines)} | bytes, baseline |"]
+    rows += ["| --- |" + " --- |" * (len(machines) + 1)]
+    inputs = [*SCENES, *tools.captured, "synthetic:medium:full", "synthetic:large_ftb:full"]
+    for source in inputs:
+        cells = []
+        for machine in machines:
+            both = []
+            for on in ("false", "true"):
+                stats = run_stats(tools, source, "--config", machine, "--set", f"hi_z.enabled={on}")["frame"]
+                early_z = stats["counters"]["early_z"]
+                moved = early_z["bytes_read"] + early_z["bytes_written"] + stats["flushed_bytes"]
+                both.append((stats["time"]["cycles"], moved))
+            cells.append(f"{both[0][0]:,} to {both[1][0]:,} ({both[1][0] / both[0][0]:.2f})")
+            if machine.stem == "baseline":
+                bytes_cell = f"{both[0][1]:,} to {both[1][1]:,} ({both[1][1] / max(both[0][1], 1):.2f})"
+        name = source if isinstance(source, str) else frame_name(source)
+        rows.append(f"| {name} | {' | '.join(cells)} | {bytes_cell} |")
+    command = "    halfspace run FRAME --fidelity recurrence --config MACHINE --set hi_z.enabled=false|true"
+    return f"{command}\n\n{marked(chr(10).join(rows), map(frame_name, tools.captured))}"
+
+
 def merging_counts(tools, source, held, folder):
     """What quad merging counts of a frame, with so many quads held."""
     options = ["--no-pictures", "--quad-merging", str(held), "--out", folder]
@@ -266,6 +298,8 @@ FIGURES = {
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
+    "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
+    "hi-z-machines": ("docs/units/hi_z.md", hi_z_machines),
     "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
     "reference": ("docs/guides/reference.md", reference),
     "what-if-demo": ("docs/guides/whatif.md", what_if_demo),
