@@ -53,7 +53,8 @@ module z_fill_buffers
 
   form_t    forms_q [MissesInFlight];
   form_t    form;
-  pointer_t request_q, fill_q, filled_q, taken_q; // next to be asked for, to come, to be filled, to be taken
+  // Next to be asked for, to come, to be filled, to be taken.
+  pointer_t request_q, fill_q, filled_q, taken_q;
   beat_t    beat_q, last_beat;
   logic     fill_end, filled;                     // the last data of a line; a line is there
   quads_t   lines_q [MissesInFlight];

@@ -29,7 +29,7 @@ std::string shift_bin(const char* what, int shift) {
 bool flush_can_wait(const EarlyZShape& shape) {
   const int write = std::max(1, shape.line_bytes() / shape.write_bytes);
   for (int line = shape.write_buffers; line < shape.lines; ++line) {
-    if ((line - shape.write_buffers + 1) * write + 1 > line) {
+    if ((line - shape.write_buffers + 1) * write + 1 + shape.encode() > line) {
       return true;
     }
   }

@@ -21,7 +21,7 @@ bind early_z handshake_checker #(
 );
 
 bind early_z handshake_checker #(
-  .Width (raster_pkg::LineBits + 1)
+  .Width (raster_pkg::LineBits + 1 + $bits(z_codec_pkg::coded_shift_t))
 ) u_read_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
@@ -31,7 +31,7 @@ bind early_z handshake_checker #(
 );
 
 bind early_z handshake_checker #(
-  .Width (raster_pkg::LineBits + WriteBits + 2)
+  .Width (raster_pkg::LineBits + WriteBits + 2 + $bits(z_codec_pkg::coded_shift_t))
 ) u_write_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),

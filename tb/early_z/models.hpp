@@ -37,6 +37,9 @@ struct EarlyZShape {
 
   /// Bytes of a line of 4-byte samples.
   [[nodiscard]] int line_bytes() const { return 4 * widths.MaskBits / widths.ZParts; }
+  /// Cycles in which a line is decoded and encoded: a register each, and those of z_decoder and z_encoder.
+  [[nodiscard]] int decode() const { return compression ? 5 : 0; }
+  [[nodiscard]] int encode() const { return compression ? 7 : 0; }
   /// Of a line of the surface.
   [[nodiscard]] ZCodecShape codec(DepthFormat format) const {
     return {.width = widths.TileSize,

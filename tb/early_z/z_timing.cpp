@@ -118,7 +118,7 @@ class Contract {
       }
       filled_next_ = std::max(r + latency_, filled_next_) +
                      static_cast<Cycle>(transfer_cycles(miss.bytes, shape_.read_bytes));
-      there = std::max(there, filled_next_ - 1 + (shape_.compression ? kDecode : 0));
+      there = std::max(there, filled_next_ - 1 + static_cast<Cycle>(shape_.decode()));
       ++fetched;
     }
     lookup_next_ = std::max(moved, resolved);
@@ -196,7 +196,7 @@ class Contract {
   void write(Cycle from, std::uint32_t line, std::uint32_t bytes) {
     const auto cycles = static_cast<Cycle>(transfer_cycles(static_cast<int>(bytes), shape_.write_bytes));
     const Cycle first =
-        std::max(from + 1 + (shape_.compression ? kEncode : 0), written_.empty() ? 0 : written_.back() + 1);
+        std::max(from + 1 + static_cast<Cycle>(shape_.encode()), written_.empty() ? 0 : written_.back() + 1);
     for (Cycle i = 0; i < cycles && !failure_; ++i, ++writes_seen_) {
       if (writes_seen_ >= log_.writes.size()) {
         if (first + i < log_.cycles) {

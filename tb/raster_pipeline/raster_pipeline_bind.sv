@@ -82,7 +82,7 @@ bind raster_pipeline handshake_checker #(
 );
 
 bind raster_pipeline handshake_checker #(
-  .Width (raster_pkg::LineBits + 1)
+  .Width (raster_pkg::LineBits + 1 + $bits(z_codec_pkg::coded_shift_t))
 ) u_read_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
@@ -94,7 +94,7 @@ bind raster_pipeline handshake_checker #(
 // Without the data: Verilator 5.006 writes C++ that does not compile when an assertion samples 2048 bits or more. The
 // bench of early_z holds it to the law.
 bind raster_pipeline handshake_checker #(
-  .Width (raster_pkg::LineBits + 2)
+  .Width (raster_pkg::LineBits + 2 + $bits(z_codec_pkg::coded_shift_t))
 ) u_write_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
