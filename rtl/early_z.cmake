@@ -7,9 +7,9 @@ foreach(configuration "4;8;4;4;1;16;2;16" "4;5;1;1;1;1;1;1" "8;6;8;2;4;32;1;4" "
                  -DHALFSPACE_QUAD_WIDTH=${quad_width} -DHALFSPACE_TEST_WIDTH=${test_width}
                  -DHALFSPACE_Z_PARTS=${z_parts} -GLines=${lines} -GWays=${ways} -GReadBytes=${bytes}
                  -GWriteBytes=${bytes})
-  halfspace_lint(t${tile_size}_s${sub_pixel_bits}_w${quad_width}_v${test_width}_p${z_parts}_hi_z
+  halfspace_lint(t${tile_size}_s${sub_pixel_bits}_w${quad_width}_v${test_width}_p${z_parts}_hi_z_coded
                  -DHALFSPACE_TILE_SIZE=${tile_size} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits}
                  -DHALFSPACE_QUAD_WIDTH=${quad_width} -DHALFSPACE_TEST_WIDTH=${test_width}
                  -DHALFSPACE_Z_PARTS=${z_parts} -GLines=${lines} -GWays=${ways} -GReadBytes=${bytes}
-                 -GWriteBytes=${bytes} -GHiZ=1'b1)
+                 -GWriteBytes=${bytes} -GHiZ=1'b1 -GCompression=1'b1)
 endforeach()

@@ -1,5 +1,6 @@
 raster_pkg.sv
 depth_pkg.sv
+z_codec_pkg.sv
 credits.sv
 memory_fifo.sv
 credit_fifo.sv
@@ -11,10 +12,16 @@ depth_plane.sv
 depth_interpolator.sv
 z_bank.sv
 z_clear_flags.sv
+z_coded_shifts.sv
 z_lookup.sv
 z_pending.sv
-z_write_buffer.sv
 z_extremes_stage.sv
+z_encode_plane.sv
+z_encode_ends.sv
+z_encoder.sv
+z_decoder.sv
+z_fill_buffers.sv
+z_write_buffer.sv
 z_extremes.sv
 z_test.sv
 z_control.sv

@@ -11,6 +11,7 @@
 module early_z
   import raster_pkg::*;
   import depth_pkg::*;
+  import z_codec_pkg::*;
 #(
   /// Bursts between the lookup and the end of their test, 2 or more.
   parameter int unsigned PendingDepth = 32,
@@ -38,8 +39,9 @@ module early_z
   parameter int unsigned MemoryTiles = 1024,
   /// 1: says what each burst leaves stored, for hi_z. 0: update_valid_o and update_o are 0.
   parameter bit HiZ = 1'b0,
+  /// 1: lines are coded in memory. 0: read_shift_o and write_shift_o are 0.
+  parameter bit Compression = 1'b0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
-  localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
   localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
 ) (
@@ -66,11 +68,13 @@ module early_z
   output logic                 update_valid_o,
   output hi_z_update_t         update_o,
 
-  // Memory reads: requests, and their data in the same order. A line has 2 bytes a sample (half) or 4.
+  // Memory reads: requests, and their data in the same order. A line has 2 bytes a sample (half) or 4; coded, it has so
+  // many >> shift.
   output logic                 read_valid_o,
   input  logic                 read_ready_i,
   output logic [LineBits-1:0]  read_line_o,
   output logic                 read_half_o,
+  output coded_shift_t         read_shift_o,
   input  logic                 fill_valid_i,
   input  logic [FillBits-1:0]  fill_data_i,
 
@@ -79,6 +83,7 @@ module early_z
   input  logic                 write_ready_i,
   output logic [LineBits-1:0]  write_line_o,
   output logic                 write_half_o,
+  output coded_shift_t         write_shift_o,
   output logic                 write_last_o,
   output logic [WriteBits-1:0] write_data_o,
 
@@ -116,7 +121,6 @@ module early_z
 
   typedef struct packed {
     logic                  touches;
-    logic                  half;
     logic                  test;
     logic                  write;
     logic [FuncBits-1:0]   func;
@@ -164,7 +168,6 @@ module early_z
     format:   slot_state_i.format,
     state:    '{
       touches:    touches,
-      half:       half,
       test:       slot_state_i.test,
       write:      slot_state_i.write,
       func:       slot_state_i.func,
@@ -198,6 +201,8 @@ module early_z
   logic [ZParts-1:0] [Ways-1:0]         dropped;
   logic [TileBits-1:0]                  leaving_tile;
   logic                                 lookup_idle, test_idle, written;
+  logic [ZParts-1:0]                    line_written;
+  logic [TileBits-1:0]                  line_written_tile;
 
   logic                                 inspect, drop, mark;
   logic [PartLineBits-1:0]              inspect_line;
@@ -209,7 +214,8 @@ module early_z
     .Ways           (Ways),
     .MissesInFlight (MissesInFlight),
     .MemoryTiles    (MemoryTiles),
-    .ClearTiles     (ClearTiles)
+    .ClearTiles     (ClearTiles),
+    .Compression    (Compression)
   ) u_lookup (
     .clk_i          (clk_i),
     .rst_ni         (rst_ni),
@@ -248,6 +254,10 @@ module early_z
     .read_ready_i   (read_ready_i),
     .read_line_o    (read_line_o),
     .read_half_o    (read_half_o),
+    .read_shift_o   (read_shift_o),
+    .written_i      (line_written),
+    .written_tile_i (line_written_tile),
+    .written_shift_i (write_shift_o),
     .inspect_i      (inspect),
     .slot_i         (inspect_line),
     .drop_i         (drop),
@@ -424,7 +434,8 @@ module early_z
     .ReadBytes      (ReadBytes),
     .WriteBytes     (WriteBytes),
     .MemoryTiles    (MemoryTiles),
-    .HiZ            (HiZ)
+    .HiZ            (HiZ),
+    .Compression    (Compression)
   ) u_test (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -446,7 +457,6 @@ module early_z
     .test_i           (coded_out.state.test),
     .write_i          (coded_out.state.write),
     .func_i           (coded_out.state.func),
-    .half_i           (coded_out.state.half),
     .clear_code_i     (coded_out.state.clear_code),
     .beat_i           (test_beat),
     .beat_valid_o     (beat_valid_o),
@@ -463,14 +473,18 @@ module early_z
     .leaving_o        (leaving),
     .request_i        (request),
     .request_half_i   (read_half_o),
+    .request_shift_i  (read_shift_o),
     .fill_valid_i     (fill_valid_i),
     .fill_data_i      (fill_data_i),
     .write_valid_o    (write_valid_o),
     .write_ready_i    (write_ready_i),
     .write_line_o     (write_line_o),
     .write_half_o     (write_half_o),
+    .write_shift_o    (write_shift_o),
     .write_last_o     (write_last_o),
     .write_data_o     (write_data_o),
+    .line_written_o   (line_written),
+    .line_written_tile_o (line_written_tile),
     .scan_i           (scan),
     .scan_part_i      (scan_part),
     .scan_line_i      (inspect_line),

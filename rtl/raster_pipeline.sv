@@ -6,6 +6,7 @@
 
 module raster_pipeline
   import raster_pkg::*;
+  import z_codec_pkg::*;
 #(
   // Names in the configuration file and what each costs: docs/units/raster_pipeline.md.
   parameter int unsigned SetupQueue = 8,
@@ -31,6 +32,7 @@ module raster_pipeline
   parameter int unsigned Ways = 4,
   parameter int unsigned MissesInFlight = 16,
   parameter int unsigned WriteBuffers = 4,
+  parameter bit          Compression = 1'b0,
   parameter int unsigned ClearTiles = 64,
   parameter int unsigned ReadBytes = 64,
   parameter int unsigned WriteBytes = 64,
@@ -42,7 +44,6 @@ module raster_pipeline
   parameter int unsigned CounterBits = 50,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned BlockBits = $clog2(MemoryBlocks),
-  localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
   localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
 ) (
@@ -65,12 +66,14 @@ module raster_pipeline
   input  logic                 read_ready_i,
   output logic [LineBits-1:0]  read_line_o,
   output logic                 read_half_o,
+  output coded_shift_t         read_shift_o,
   input  logic                 fill_valid_i,
   input  logic [FillBits-1:0]  fill_data_i,
   output logic                 write_valid_o,
   input  logic                 write_ready_i,
   output logic [LineBits-1:0]  write_line_o,
   output logic                 write_half_o,
+  output coded_shift_t         write_shift_o,
   output logic                 write_last_o,
   output logic [WriteBits-1:0] write_data_o,
 
@@ -289,7 +292,8 @@ module raster_pipeline
     .WriteBytes          (WriteBytes),
     .ClearTiles          (ClearTiles),
     .MemoryTiles         (MemoryTiles),
-    .HiZ                 (HiZ)
+    .HiZ                 (HiZ),
+    .Compression         (Compression)
   ) u_early_z (
     .clk_i             (clk_i),
     .rst_ni            (rst_ni),
@@ -309,12 +313,14 @@ module raster_pipeline
     .read_ready_i      (read_ready_i),
     .read_line_o       (read_line_o),
     .read_half_o       (read_half_o),
+    .read_shift_o      (read_shift_o),
     .fill_valid_i      (fill_valid_i),
     .fill_data_i       (fill_data_i),
     .write_valid_o     (write_valid_o),
     .write_ready_i     (write_ready_i),
     .write_line_o      (write_line_o),
     .write_half_o      (write_half_o),
+    .write_shift_o     (write_shift_o),
     .write_last_o      (write_last_o),
     .write_data_o      (write_data_o),
     .idle_o            (early_z_idle),

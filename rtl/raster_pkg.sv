@@ -1,8 +1,8 @@
 // Widths and packets of the links between the units, for every configuration.
 //
 // Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
-// model/halfspace/units/link_packets.hpp and model/halfspace/machine/shape.hpp: change those and print this file
-// again. A configuration is chosen by defines:
+// model/halfspace/units/link_packets.hpp, model/halfspace/units/z_codec.hpp, model/halfspace/machine/shape.hpp and
+// model/halfspace/timing/contract.hpp: change those and print this file again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
 // -DHALFSPACE_BLOCK_SIZE=8|16|32|64
 // -DHALFSPACE_TILE_SIZE=4|8|16
@@ -100,6 +100,14 @@ package raster_pkg;
   parameter int unsigned QuadMaskBits = 4;
   // samples that are tested in a cycle
   parameter int unsigned TestSamples = 4 * TestWidth;
+  // a line of depth is not coded in fewer
+  parameter int unsigned LeastCodedBytes = 32;
+  // a coded line has its bytes >> 1 to this
+  parameter int unsigned MostCodedShift = 3;
+  // cycles from a line of depth to its bytes
+  parameter int unsigned ZEncodeLatency = 6;
+  // and back
+  parameter int unsigned ZDecodeLatency = 4;
 
   typedef logic signed [CoordBits-1:0] coord_t;
   typedef logic signed [VertexDepthBits-1:0] vertex_depth_t;

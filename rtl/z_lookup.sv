@@ -8,6 +8,7 @@
 
 module z_lookup
   import raster_pkg::*;
+  import z_codec_pkg::*;
 #(
   /// Bursts between the lookup and the end of their test, 2 or more.
   parameter int unsigned PendingDepth = 32,
@@ -21,6 +22,8 @@ module z_lookup
   parameter int unsigned MemoryTiles = 1024,
   /// Tiles that a clear marks in a cycle: a power of two.
   parameter int unsigned ClearTiles = 64,
+  /// 1: lines are coded in memory.
+  parameter bit Compression = 1'b0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned PartLines = Lines / ZParts,
   localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1,
@@ -74,6 +77,12 @@ module z_lookup
   input  logic                                   read_ready_i,
   output logic [LineBits-1:0]                    read_line_o,
   output logic                                   read_half_o,
+  output coded_shift_t                           read_shift_o,
+
+  // A line has been written: by how much it is coded.
+  input  logic [ZParts-1:0]                      written_i,
+  input  logic [TileBits-1:0]                    written_tile_i,
+  input  coded_shift_t                           written_shift_i,
 
   // Clear: drops the lines of tiles first to last from the set of a slot, and marks them cleared from mark_from_i on.
   // And what a slot holds, for the flush. Only when the unit is idle.
@@ -192,6 +201,7 @@ module z_lookup
   // The tags. A set that was not used since reset has its slots in order, none in use.
   logic     found;
   logic [ZParts-1:0] cleared;
+  coded_shift_t [ZParts-1:0] shifts; // of the tile's lines in memory
   assign found = fresh_q & touches_i;
 
   for (genvar p = 0; p < ZParts; p++) begin : gen_part
@@ -310,6 +320,22 @@ module z_lookup
       .stored_i      (stored_i[p]),
       .stored_tile_i (stored_tile_i[p])
     );
+
+    if (Compression) begin : gen_shifts
+      z_coded_shifts #(
+        .Tiles (MemoryTiles)
+      ) u_shifts (
+        .clk_i           (clk_i),
+        .rst_ni          (rst_ni),
+        .tile_i          (tile),
+        .shift_o         (shifts[p]),
+        .written_i       (written_i[p]),
+        .written_tile_i  (written_tile_i),
+        .written_shift_i (written_shift_i)
+      );
+    end else begin : gen_no_shifts
+      assign shifts[p] = '0;
+    end
   end
 
   assign found_o       = fresh_q;
@@ -336,23 +362,33 @@ module z_lookup
   assign fetched_o      = fetched_d;
 
   logic [LineBits-1:0] line;
+  coded_shift_t        shift;
 
   always_comb begin
-    line = LineBits'(tile) * LineBits'(ZParts);
+    line  = LineBits'(tile) * LineBits'(ZParts);
+    shift = '0;
     for (int unsigned p = 0; p < ZParts; p++) begin
       if (part[p]) begin
-        line |= LineBits'(p);
+        line  |= LineBits'(p);
+        shift |= shifts[p];
       end
     end
   end
 
+  if (!Compression) begin : gen_unused_written
+    logic unused_written;
+    assign unused_written = ^{written_i, written_tile_i, written_shift_i};
+  end
+
   // A request that memory does not take at once waits here, so that beat_ready_o need not know of it.
   logic                waiting_half_q;
+  coded_shift_t        waiting_shift_q;
   logic [LineBits-1:0] waiting_line_q;
 
   assign read_valid_o = waits_q | ask;
   assign read_line_o  = waits_q ? waiting_line_q : line;
   assign read_half_o  = waits_q ? waiting_half_q : half_i;
+  assign read_shift_o = waits_q ? waiting_shift_q : shift;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -366,6 +402,7 @@ module z_lookup
     if (ask) begin
       waiting_line_q <= line;
       waiting_half_q <= half_i;
+      waiting_shift_q <= shift;
     end
   end
 

@@ -6,6 +6,7 @@
 
 module z_test
   import raster_pkg::*;
+  import z_codec_pkg::*;
 #(
   /// Bursts between the lookup and the end of their test, 2 or more.
   parameter int unsigned PendingDepth = 32,
@@ -27,11 +28,12 @@ module z_test
   parameter int unsigned MemoryTiles = 1024,
   /// 1: says what each burst leaves stored, for hi_z. 0: update_valid_o and update_o are 0.
   parameter bit HiZ = 1'b0,
+  /// 1: lines are coded in memory.
+  parameter bit Compression = 1'b0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned PartLines = Lines / ZParts,
   localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1,
   localparam int unsigned PendingBits = $clog2(PendingDepth),
-  localparam int unsigned LineBytes = 4 * MaskBits / ZParts,
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
   localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
 ) (
@@ -60,7 +62,6 @@ module z_test
   input  logic                                   test_i,
   input  logic                                   write_i,
   input  logic [FuncBits-1:0]                    func_i,
-  input  logic                                   half_i,
   input  logic [CodeBits-1:0]                    clear_code_i,
   // depth of all samples; passed means nothing
   input  tested_beat_t                           beat_i,
@@ -86,14 +87,18 @@ module z_test
   // Memory: what was asked for, its data, what is written.
   input  logic                                   request_i,
   input  logic                                   request_half_i,
+  input  coded_shift_t                           request_shift_i,
   input  logic                                   fill_valid_i,
   input  logic [FillBits-1:0]                    fill_data_i,
   output logic                                   write_valid_o,
   input  logic                                   write_ready_i,
   output logic [LineBits-1:0]                    write_line_o,
   output logic                                   write_half_o,
+  output coded_shift_t                           write_shift_o,
   output logic                                   write_last_o,
   output logic [WriteBits-1:0]                   write_data_o,
+  output logic [ZParts-1:0]                      line_written_o,
+  output logic [TileBits-1:0]                    line_written_tile_o,
 
   // Flush: looks at a slot in each cycle of scan_i until it may go on. inspect_i: the next cycle may look at a slot.
   input  logic                                   scan_i,
@@ -114,22 +119,12 @@ module z_test
   output logic                                   idle_o
 );
 
-  localparam int unsigned PartQuads = TileQuads / ZParts;
   localparam int unsigned TestBeats = TileQuads / TestWidth;
-  localparam int unsigned ReadFull = LineBytes > ReadBytes ? LineBytes / ReadBytes : 1;
-  localparam int unsigned ReadHalf = LineBytes / 2 > ReadBytes ? LineBytes / 2 / ReadBytes : 1;
-  localparam int unsigned ReadCountBits = ReadFull > 1 ? $clog2(ReadFull) : 1;
-  localparam int unsigned FillPointerBits = MissesInFlight > 1 ? $clog2(MissesInFlight) : 1;
   localparam int unsigned BurstCountBits = $clog2(PendingDepth + 1);
-  localparam int unsigned FillCountBits = $clog2(MissesInFlight + 1);
   localparam int unsigned BufferCountBits = $clog2(WriteBuffers + 1);
   localparam int unsigned FifoCountBits = $clog2(FifoDepth + 1);
 
-  typedef logic [PartQuads-1:0] [3:0] [CodeBits-1:0] line_t;          // codes by quad
-  typedef logic [8*LineBytes-1:0] packed_line_t;                      // as in memory
-  typedef logic [FillPointerBits-1:0]   fill_pointer_t;
   typedef logic [BurstCountBits-1:0]    burst_count_t;
-  typedef logic [FillCountBits-1:0]     fill_count_t;
   typedef logic [BufferCountBits-1:0]   buffer_count_t;
   typedef logic [FifoCountBits-1:0]     fifo_count_t;
 
@@ -141,27 +136,6 @@ module z_test
     logic [ZParts-1:0] [TileBits-1:0]      victim_tile;
     logic [ZParts-1:0]                     victim_half;
   } header_t;
-
-  // Place of a quad's sample in its line, in row order.
-  function automatic int unsigned sample_at(int unsigned quad, int unsigned sample);
-    return (2 * (quad / (TileSize / 2)) + sample / 2) * TileSize
-           + 2 * (quad % (TileSize / 2)) + sample % 2;
-  endfunction
-
-  // Codes from a line as in memory.
-  function automatic line_t codes_of(packed_line_t bytes, logic half);
-    line_t codes;
-    for (int unsigned q = 0; q < PartQuads; q++) begin
-      for (int unsigned s = 0; s < 4; s++) begin
-        codes[q][s] = half ? {16'b0, bytes[16*sample_at(q, s)+:16]} : bytes[32*sample_at(q, s)+:32];
-      end
-    end
-    return codes;
-  endfunction
-  function automatic fill_pointer_t after_fill(fill_pointer_t pointer, int unsigned steps);
-    automatic int unsigned sum = int'(pointer) + steps;
-    return fill_pointer_t'(sum >= MissesInFlight ? sum - MissesInFlight : sum);
-  endfunction
 
   function automatic logic passes(logic [FuncBits-1:0] func, logic [CodeBits-1:0] code,
                                   logic [CodeBits-1:0] stored);
@@ -202,7 +176,7 @@ module z_test
   end
 
   // The test register. Codes of its lines are read as it is loaded.
-  logic         valid_q, first_q, touches_q, test_q, write_q, half_q;
+  logic         valid_q, first_q, touches_q, test_q, write_q;
   logic [FuncBits-1:0] func_q;
   logic [CodeBits-1:0] clear_code_q;
   tested_beat_t beat_q;
@@ -227,7 +201,6 @@ module z_test
       test_q       <= test_i;
       write_q      <= write_i;
       func_q       <= func_i;
-      half_q       <= half_i;
       clear_code_q <= clear_code_i;
       beat_q       <= beat_i;
     end
@@ -250,21 +223,18 @@ module z_test
 
   // When the first beat of a burst may be tested.
   burst_count_t  resolved_q;                  // bursts, not yet begun
-  fill_count_t   filled_q, wanted_fills;      // fill buffers full; of this burst
   buffer_count_t buffers_left, wanted_buffers; // write buffers: free; for this burst
   fifo_count_t   fifo_free_q;                 // bursts for which the output FIFO has room
 
   always_comb begin
-    wanted_fills   = '0;
     wanted_buffers = '0;
     for (int unsigned p = 0; p < ZParts; p++) begin
-      wanted_fills   += fill_count_t'(fetched[p]);
       wanted_buffers += buffer_count_t'(dirty_victim[p]);
     end
   end
 
-  logic there, buffers_free, ready_to_begin;
-  assign there          = resolved_q != '0 && filled_q >= wanted_fills;
+  logic filled, there, buffers_free, ready_to_begin;
+  assign there          = resolved_q != '0 && filled;
   assign buffers_free   = buffers_left >= wanted_buffers;
   assign ready_to_begin = there && buffers_free && fifo_free_q != '0;
   assign activity_o     = !valid_q        ? ZTestNoBurst
@@ -276,67 +246,41 @@ module z_test
   assign burst_done_o   = fire & beat_q.last;
   assign fill_free_o    = swap ? fetched : '0;
 
-  logic fill_end, last_popped;
+  logic last_popped;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       resolved_q  <= '0;
-      filled_q    <= '0;
       fifo_free_q <= fifo_count_t'(FifoDepth);
     end else begin
       resolved_q  <= resolved_q + burst_count_t'(resolved_i) - burst_count_t'(swap);
-      filled_q    <= filled_q + fill_count_t'(fill_end) - (swap ? wanted_fills : '0);
       fifo_free_q <= fifo_free_q + fifo_count_t'(last_popped) - fifo_count_t'(swap);
     end
   end
 
-  // Fill buffers.
-  packed_line_t  fills_q [MissesInFlight];
-  logic          fill_half_q [MissesInFlight];
-  // Next to be asked for, to be filled, to go into the cache.
-  fill_pointer_t request_q, fill_q, taken_q;
-  logic [ReadCountBits-1:0] fill_beat_q;
+  quads_t [ZParts-1:0] fills;
 
-  logic [ReadCountBits-1:0] last_fill_beat;
-  assign last_fill_beat = ReadCountBits'((fill_half_q[fill_q] ? ReadHalf : ReadFull) - 1);
-  assign fill_end       = fill_valid_i && fill_beat_q == last_fill_beat;
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      request_q   <= '0;
-      fill_q      <= '0;
-      taken_q     <= '0;
-      fill_beat_q <= '0;
-    end else begin
-      if (request_i) begin
-        request_q <= after_fill(request_q, 1);
-      end
-      if (fill_valid_i) begin
-        fill_beat_q <= fill_end ? '0 : fill_beat_q + ReadCountBits'(1);
-      end
-      if (fill_end) begin
-        fill_q <= after_fill(fill_q, 1);
-      end
-      if (swap) begin
-        taken_q <= after_fill(taken_q, int'(wanted_fills));
-      end
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (request_i) begin
-      fill_half_q[request_q] <= request_half_i;
-    end
-    for (int unsigned i = 0; i < ReadFull; i++) begin
-      if (fill_valid_i && fill_beat_q == ReadCountBits'(i)) begin
-        fills_q[fill_q][i*FillBits+:FillBits] <= fill_data_i;
-      end
-    end
-  end
+  z_fill_buffers #(
+    .MissesInFlight (MissesInFlight),
+    .ReadBytes      (ReadBytes),
+    .Compression    (Compression)
+  ) u_fill_buffers (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .request_i       (request_i),
+    .request_half_i  (request_half_i),
+    .request_shift_i (request_shift_i),
+    .fill_valid_i    (fill_valid_i),
+    .fill_data_i     (fill_data_i),
+    .take_i          (swap),
+    .wanted_i        (fetched),
+    .there_o         (filled),
+    .lines_o         (fills)
+  );
 
   // The banks, and the lines as the beat sees them. A quad of which a sample is written is written whole: the others
   // are as they were read.
-  line_t [ZParts-1:0]  stored, line;
+  quads_t [ZParts-1:0] stored, line;
   logic [TileQuads-1:0] [3:0] [CodeBits-1:0] updated;
   logic [TileQuads-1:0] [3:0] wrote;
   logic [ZParts-1:0]   wrote_part;
@@ -359,21 +303,11 @@ module z_test
       );
     end
 
-    // The fill buffer of this part: after those of the parts before it.
-    localparam logic [ZParts-1:0] Before = ZParts'((1 << p) - 1);
-    fill_pointer_t fill_slot;
-    always_comb begin
-      automatic int unsigned earlier = 0;
-      for (int unsigned i = 0; i < ZParts; i++) begin
-        earlier += Before[i] && fetched[i] ? 1 : 0;
-      end
-      fill_slot = after_fill(taken_q, earlier);
-    end
     always_comb begin
       line[p] = stored[p];
       if (first_q && header.missed[p]) begin
         if (fetched[p]) begin
-          line[p] = codes_of(fills_q[fill_slot], half_q);
+          line[p] = fills[p];
         end else begin
           line[p] = {4 * PartQuads{clear_code_q}};
         end
@@ -504,7 +438,8 @@ module z_test
   z_write_buffer #(
     .WriteBuffers (WriteBuffers),
     .WriteBytes   (WriteBytes),
-    .MemoryTiles  (MemoryTiles)
+    .MemoryTiles  (MemoryTiles),
+    .Compression  (Compression)
   ) u_write_buffer (
     .clk_i          (clk_i),
     .rst_ni         (rst_ni),
@@ -520,8 +455,11 @@ module z_test
     .write_ready_i  (write_ready_i),
     .write_line_o   (write_line_o),
     .write_half_o   (write_half_o),
+    .write_shift_o  (write_shift_o),
     .write_last_o   (write_last_o),
-    .write_data_o   (write_data_o)
+    .write_data_o   (write_data_o),
+    .written_o      (line_written_o),
+    .written_tile_o (line_written_tile_o)
   );
 
   // Lines on their way out: victims of bursts that are not tested, and what is not yet written.

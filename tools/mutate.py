@@ -69,6 +69,12 @@ GROUPS = {
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
     "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
     "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
+    "z_codec": Group(
+        "z_codec",
+        ["t4_p1", "t8_p2"],
+        ["--lines", "6000"],
+        ["z_codec_pkg", "z_encode_plane", "z_encode_ends", "z_encoder", "z_decoder"],
+    ),
     "raster_pipeline": Group("raster_pipeline", ["small_no_dfg"], ["--triangles", "20000"]),
 }
 SURVIVED = "**survived**"

@@ -220,6 +220,31 @@ def _early_z_parts() -> Unit:
     )
 
 
+def _z_codec() -> Unit:
+    def of(top, tile, parts, measured=True):
+        defines = {"TILE_SIZE": tile, "Z_PARTS": parts}
+        return Configuration(top, defines, measured=measured, long=tile == 16 and parts != 4)
+
+    return Unit(
+        "z_codec",
+        ("z_codec",),
+        tuple(
+            configuration
+            for top in ("z_encoder", "z_decoder")
+            for configuration in (
+                of(top, 8, 1),
+                of(top, 4, 1),
+                of(top, 8, 4),
+                of(top, 4, 2, False),
+                of(top, 8, 2, False),
+                of(top, 16, 1, False),
+                of(top, 16, 2, False),
+                of(top, 16, 4, False),
+            )
+        ),
+    )
+
+
 def _memories() -> Unit:
     """What has to become block RAM, as the default machine has it."""
     return Unit(
@@ -266,6 +291,7 @@ UNITS = {
         _setup(),
         _early_z(),
         _early_z_parts(),
+        _z_codec(),
         _memories(),
         _raster_pipeline(),
     )

@@ -20,12 +20,16 @@ std::string miss_bin(const char* made, const char* victim) {
   return fmt::format("miss {} victim {}", made, victim);
 }
 
+std::string shift_bin(const char* what, int shift) {
+  return fmt::format("line {} in 1/{} of its bytes", what, 1 << shift);
+}
+
 /// Whether a flush of dirty lines, one a cycle, can find the write buffer full: writing is slow enough, and
 /// there are lines enough.
 bool flush_can_wait(const EarlyZShape& shape) {
   const int write = std::max(1, shape.line_bytes() / shape.write_bytes);
   for (int line = shape.write_buffers; line < shape.lines; ++line) {
-    if ((line - shape.write_buffers + 1) * write + 1 > line) {
+    if ((line - shape.write_buffers + 1) * write + 1 + shape.encode() > line) {
       return true;
     }
   }
@@ -48,6 +52,12 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
   for (const char* made : {"fetched", "overwritten", "cleared"}) {
     for (const char* victim : {"none", "clean", "dirty"}) {
       counts_[miss_bin(made, victim)] = 0;
+    }
+  }
+  for (int shift = 1; shape.compression && shift <= kMostCodedShift; ++shift) {
+    if (shape.line_bytes() >> shift >= kLeastCodedBytes) {
+      counts_[shift_bin("fetched", shift)] = 0;
+      counts_[shift_bin("written", shift)] = 0;
     }
   }
   counts_["hit"] = 0;
@@ -103,6 +113,16 @@ void ZCoverage::command(const Command& command) {
   }
   if (command.misses.count != 0) {
     hit(fmt::format("parts missed {}", command.misses.count));
+  }
+  for (const int shift : command.fetched) {
+    if (shift != 0) {
+      hit(shift_bin("fetched", shift));
+    }
+  }
+  for (const int shift : command.written) {
+    if (shift != 0) {
+      hit(shift_bin("written", shift));
+    }
   }
   for (const ZMiss& miss : command.misses.parts()) {
     hit(miss_bin(miss.fetch         ? "fetched"

@@ -253,7 +253,7 @@ class Run {
   void check(bool valid) {
     fail(output_law_.cycle(cycle_, valid, in_.beat_ready, out_.beat));
     fail(read_law_.cycle(cycle_, out_.read_valid, in_.read_ready,
-                         std::array<std::uint32_t, 2>{out_.read_line, out_.read_half}));
+                         std::array<std::uint32_t, 3>{out_.read_line, out_.read_half, out_.read_shift}));
     fail(write_law_.cycle(cycle_, out_.write_valid, in_.write_ready, out_.write));
     if (!valid) {
       return;
@@ -316,7 +316,8 @@ class Run {
     }
     log_.requests.push_back({cycle_, out_.read_line});
     const std::vector<std::uint8_t>& line = memory_.at(out_.read_line);
-    if (line.empty() || out_.read_half != (line.size() != static_cast<std::size_t>(shape_.line_bytes()))) {
+    if (line.empty() || line.size() != whole(out_.read_line) >> out_.read_shift ||
+        out_.read_half != is_half(out_.read_line)) {
       fail(Failure{FailureKind::kPayload, cycle_,
                    fmt::format("request for line {} of the wrong size", out_.read_line)});
       return;
@@ -343,15 +344,15 @@ class Run {
     }
     log_.writes.push_back({cycle_, out_.write_line, out_.write_last});
     std::vector<std::uint8_t>& line = memory_.at(out_.write_line);
+    const std::size_t bytes = whole(out_.write_line) >> out_.write_shift;
     const auto width = static_cast<std::size_t>(shape_.write_bytes);
-    for (std::size_t i = 0; i < width && write_bytes_.size() < line.size(); ++i) {
+    for (std::size_t i = 0; i < width && write_bytes_.size() < bytes; ++i) {
       write_bytes_.push_back(static_cast<std::uint8_t>(extract_bits(out_.write, static_cast<int>(8 * i), 8)));
     }
     if (write_beats_++ >= options_.fault_packet && options_.fault == ZFault::kFlipWrite) {
       write_bytes_.back() ^= 1;
     }
-    if (out_.write_last != (write_bytes_.size() == line.size()) ||
-        out_.write_half != (line.size() != static_cast<std::size_t>(shape_.line_bytes()))) {
+    if (out_.write_last != (write_bytes_.size() == bytes) || out_.write_half != is_half(out_.write_line)) {
       fail(Failure{FailureKind::kPayload, cycle_,
                    fmt::format("write of line {} of the wrong size", out_.write_line)});
     }
@@ -360,6 +361,12 @@ class Run {
       write_bytes_.clear();
       ++lines_done_;
     }
+  }
+
+  /// Bytes of a line that is not coded.
+  [[nodiscard]] std::size_t whole(std::uint32_t line) const { return workload_.memory_before[line].size(); }
+  [[nodiscard]] bool is_half(std::uint32_t line) const {
+    return whole(line) != static_cast<std::size_t>(shape_.line_bytes());
   }
 
   /// Whether memory is asked for what the cache of the model asks for next, whenever that is.
@@ -381,6 +388,12 @@ class Run {
         continue;
       }
       ++lines_;
+      if (last.bytes.size() != memory_[line].size()) {
+        fail(Failure{FailureKind::kPayload, cycle_,
+                     fmt::format("memory at the end: line {} has {} bytes, not {}", line,
+                                 memory_[line].size(), last.bytes.size())});
+        return;
+      }
       const auto [want, have] = std::ranges::mismatch(last.bytes, memory_[line]);
       if (want != last.bytes.end()) {
         fail(Failure{FailureKind::kPayload, cycle_,

@@ -9,6 +9,8 @@
 
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/z_codec.hpp"
+#include "halfspace/units/z_line.hpp"
 
 namespace halfspace::tb {
 
@@ -27,6 +29,7 @@ struct EarlyZShape {
   int memory_tiles = 1024;
   int interpolator_number = 1;
   bool hi_z = false;
+  bool compression = false;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
@@ -34,6 +37,15 @@ struct EarlyZShape {
 
   /// Bytes of a line of 4-byte samples.
   [[nodiscard]] int line_bytes() const { return 4 * widths.MaskBits / widths.ZParts; }
+  /// Cycles in which a line is decoded and encoded: a register each, and those of z_decoder and z_encoder.
+  [[nodiscard]] int decode() const { return compression ? 5 : 0; }
+  [[nodiscard]] int encode() const { return compression ? 7 : 0; }
+  /// Of a line of the surface.
+  [[nodiscard]] ZCodecShape codec(DepthFormat format) const {
+    return {.width = widths.TileSize,
+            .height = widths.TileSize / widths.ZParts,
+            .sample_bytes = sample_bytes(format)};
+  }
   [[nodiscard]] int sets() const { return lines / (ways * widths.ZParts); }
 };
 
@@ -63,9 +75,11 @@ struct EarlyZOutputs {
   bool read_valid = false;
   std::uint32_t read_line = 0;
   bool read_half = false;
+  std::uint32_t read_shift = 0;
   bool write_valid = false;
   std::uint32_t write_line = 0;
   bool write_half = false;
+  std::uint32_t write_shift = 0;
   bool write_last = false;
   std::vector<std::uint32_t> write;
   bool idle = false;

@@ -41,9 +41,11 @@ class VerilatedEarlyZ final : public EarlyZDut {
     out.read_valid = m.read_valid_o != 0;
     out.read_line = m.read_line_o;
     out.read_half = m.read_half_o != 0;
+    out.read_shift = m.read_shift_o;
     out.write_valid = m.write_valid_o != 0;
     out.write_line = m.write_line_o;
     out.write_half = m.write_half_o != 0;
+    out.write_shift = m.write_shift_o;
     out.write_last = m.write_last_o != 0;
     get_port(m.write_data_o, out.write);
     out.idle = m.idle_o != 0;
@@ -66,7 +68,7 @@ template <class Model>
 EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
                       int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
-                      int interpolator, int hi_z) {
+                      int interpolator, int hi_z, int compression) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
             .TileSize = tile_size,
@@ -84,7 +86,8 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
            clear_tiles,
            memory_tiles,
            interpolator,
-           hi_z != 0},
+           hi_z != 0,
+           compression != 0},
           [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
             return std::make_unique<VerilatedEarlyZ<Model>>(seed);
           }};

@@ -57,7 +57,9 @@ class Maker {
     for (std::uint32_t line = 0; line < workload_.memory_before.size(); ++line) {
       FinalLine& last = workload_.memory_after.emplace_back();
       last.known = !cleared_[line];
-      last.bytes = last.known ? bytes_of(line) : std::vector<std::uint8_t>();
+      if (last.known) {
+        last.bytes = shape_.compression && written_[line] ? coded(line) : bytes_of(line);
+      }
     }
     return std::move(workload_);
   }
@@ -89,6 +91,7 @@ class Maker {
       }
     }
     cleared_.resize(static_cast<std::size_t>(shape_.memory_tiles * parts()));
+    written_.resize(cleared_.size());
     for (std::uint32_t line = 0; line < cleared_.size(); ++line) {
       workload_.memory_before.push_back(bytes_of(line));
     }
@@ -131,6 +134,21 @@ class Maker {
     return bytes;
   }
 
+  /// The same, as early_z writes it.
+  [[nodiscard]] std::vector<std::uint8_t> coded(std::uint32_t line) const {
+    const ZCodecShape shape = shape_.codec(surface_of(line)->format);
+    std::vector<std::uint32_t> codes;
+    z_decode(bytes_of(line), shape, codes);
+    std::vector<std::uint8_t> bytes;
+    z_encode(codes, shape, bytes);
+    return bytes;
+  }
+
+  void store(std::uint32_t line) {
+    cleared_[line] = false;
+    written_[line] = true;
+  }
+
   void clear(Surface& surface) {
     surface.clear_code = stored_code(surface.format, random_vertex_depth(surface.format));
     std::ranges::fill(surface.codes, surface.clear_code);
@@ -150,7 +168,7 @@ class Maker {
     command.kind = CommandKind::kFlush;
     cache_.flush([&](std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
       command.flushed.push_back({slot, line, bytes});
-      cleared_[line] = false;
+      store(line);
     });
   }
 
@@ -224,6 +242,20 @@ class Maker {
            z_test<TileSize>(triangle, burst, state, before.data(), codes) == burst.coverage.mask;
   }
 
+  /// By how much the parts that a burst wrote to are coded.
+  [[nodiscard]] ZShifts shifts(const std::uint32_t* codes, std::uint8_t written,
+                               const Surface& surface) const {
+    const ZCodecShape shape = shape_.codec(surface.format);
+    const auto samples = static_cast<std::size_t>(shape.samples());
+    ZShifts shifts;
+    for (int part = 0; shape_.compression && part < parts(); ++part) {
+      if ((written >> part & 1) != 0) {
+        shifts.set(part, z_coded_shift({codes + static_cast<std::size_t>(part) * samples, samples}, shape));
+      }
+    }
+    return shifts;
+  }
+
   template <int TileSize>
   void add_burst(const SetupTriangle& triangle, QuadBurst burst, const EarlyZState& state, Surface& surface,
                  const std::optional<std::array<std::uint16_t, 2>>& place) {
@@ -247,12 +279,19 @@ class Maker {
     if (touches_depth(state)) {
       command.touched = covered;
       const std::uint8_t written = state.write ? parts_of_mask<TileSize>(passed, parts()) : std::uint8_t{0};
-      command.misses = cache_.access(
-          surface.place, burst.coverage.tile_x, burst.coverage.tile_y,
-          {.touched = covered, .written = written, .sure = sure_parts<TileSize>(burst.coverage, parts())});
+      command.misses = cache_.access(surface.place, burst.coverage.tile_x, burst.coverage.tile_y,
+                                     {.touched = covered,
+                                      .written = written,
+                                      .sure = sure_parts<TileSize>(burst.coverage, parts()),
+                                      .shifts = shifts(stored, written, surface)});
       for (const ZMiss& miss : command.misses.parts()) {
+        if (miss.fetch) {
+          command.fetched.push_back(std::countr_zero(surface.place.line_bytes / miss.bytes));
+        }
         if (miss.write_back) {
-          cleared_[miss.victim] = false;
+          store(miss.victim);
+          command.written.push_back(
+              std::countr_zero(surface_of(miss.victim)->place.line_bytes / miss.victim_bytes));
         }
       }
     }
@@ -289,6 +328,7 @@ class Maker {
   ZCache cache_;
   std::array<Surface, kSurfaces> surfaces_;
   std::vector<bool> cleared_;  ///< by line: memory does not hold it
+  std::vector<bool> written_;  ///< by line: early_z has written it
   Workload workload_;
 };
 

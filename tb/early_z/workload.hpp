@@ -26,6 +26,8 @@ struct Command {
   EarlyZState state;
   ZMisses misses;
   std::uint8_t touched = 0;
+  std::vector<int> fetched;  ///< the shifts by which the lines are coded that are fetched
+  std::vector<int> written;  ///< and written back
   std::vector<std::vector<std::uint32_t>> beats;   ///< as they come
   std::vector<std::vector<std::uint32_t>> tested;  ///< as they must leave
   std::vector<std::uint32_t> update;               ///< what hi_z must be told

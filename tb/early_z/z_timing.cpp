@@ -13,6 +13,8 @@ namespace {
 
 using Cycle = std::uint64_t;
 
+constexpr Cycle kDecode = 5;      // a register, and those of z_decoder
+constexpr Cycle kEncode = 7;      // and those of z_encoder
 constexpr Cycle kFirstReady = 1;  // after reset ready comes from a register that has yet to see the credits
 
 /// A term of a maximum: the first cycle that it allows.
@@ -116,7 +118,7 @@ class Contract {
       }
       filled_next_ = std::max(r + latency_, filled_next_) +
                      static_cast<Cycle>(transfer_cycles(miss.bytes, shape_.read_bytes));
-      there = std::max(there, filled_next_ - 1);
+      there = std::max(there, filled_next_ - 1 + static_cast<Cycle>(shape_.decode()));
       ++fetched;
     }
     lookup_next_ = std::max(moved, resolved);
@@ -193,7 +195,8 @@ class Contract {
   /// A line enters the write buffer in cycle `from`.
   void write(Cycle from, std::uint32_t line, std::uint32_t bytes) {
     const auto cycles = static_cast<Cycle>(transfer_cycles(static_cast<int>(bytes), shape_.write_bytes));
-    const Cycle first = std::max(from + 1, written_.empty() ? 0 : written_.back() + 1);
+    const Cycle first =
+        std::max(from + 1 + static_cast<Cycle>(shape_.encode()), written_.empty() ? 0 : written_.back() + 1);
     for (Cycle i = 0; i < cycles && !failure_; ++i, ++writes_seen_) {
       if (writes_seen_ >= log_.writes.size()) {
         if (first + i < log_.cycles) {

@@ -82,23 +82,23 @@ bind raster_pipeline handshake_checker #(
 );
 
 bind raster_pipeline handshake_checker #(
-  .Width (raster_pkg::LineBits + 1)
+  .Width (raster_pkg::LineBits + 1 + $bits(z_codec_pkg::coded_shift_t))
 ) u_read_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
   .valid_i   (read_valid_o),
   .ready_i   (read_ready_i),
-  .payload_i ({read_line_o, read_half_o})
+  .payload_i ({read_line_o, read_half_o, read_shift_o})
 );
 
 // Without the data: Verilator 5.006 writes C++ that does not compile when an assertion samples 2048 bits or more. The
 // bench of early_z holds it to the law.
 bind raster_pipeline handshake_checker #(
-  .Width (raster_pkg::LineBits + 2)
+  .Width (raster_pkg::LineBits + 2 + $bits(z_codec_pkg::coded_shift_t))
 ) u_write_law (
   .clk_i     (clk_i),
   .rst_ni    (rst_ni),
   .valid_i   (write_valid_o),
   .ready_i   (write_ready_i),
-  .payload_i ({write_line_o, write_half_o, write_last_o})
+  .payload_i ({write_line_o, write_half_o, write_shift_o, write_last_o})
 );

@@ -47,8 +47,10 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
     out.beat_valid = m.beat_valid_o != 0;
     out.read_valid = m.read_valid_o != 0;
     out.read_half = m.read_half_o != 0;
+    out.read_shift = m.read_shift_o;
     out.write_valid = m.write_valid_o != 0;
     out.write_half = m.write_half_o != 0;
+    out.write_shift = m.write_shift_o;
     out.write_last = m.write_last_o != 0;
     out.idle = m.idle_o != 0;
     out.read_line = m.read_line_o;

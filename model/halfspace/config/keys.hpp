@@ -112,8 +112,9 @@
         "lines on their way to memory; at least z_cache.parts", WriteBuffers)                                \
     KEY(z_cache., fast_clear, bool, true, boolean(), "", function,                                           \
         "clear a whole surface by marking its lines; off: draw the clear")                                   \
-    KEY(z_cache., compression, bool, false, boolean(), "", function,                                         \
-        "keep lines of depth in memory in an eighth, a quarter or half of their bytes where they fit")       \
+    MODULE(z_cache., compression, bool, false, boolean(), "", function,                                      \
+        "keep lines of depth in memory in an eighth, a quarter or half of their bytes where they fit",       \
+        Compression)                                                                                         \
     MODULE(z_cache., clear_tiles, int, 64, power_of_two(1, 1024), "tiles", time,                             \
         "tiles that a fast clear marks in a cycle", ClearTiles)                                              \
   END(z_cache)                                                                                               \

@@ -12,8 +12,10 @@
 #include "halfspace/config/keys.hpp"
 #include "halfspace/machine/shape.hpp"
 #include "halfspace/numerics/widths.hpp"
+#include "halfspace/timing/contract.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
+#include "halfspace/units/z_codec.hpp"
 
 namespace halfspace {
 namespace {
@@ -142,6 +144,27 @@ std::string activity_enum(const StageInfo& stage) {
   return text + "\n  } " + std::string(stage.name) + "_activity_e;\n";
 }
 
+/// Numbers that no parameter changes.
+std::string constants() {
+  struct Constant {
+    std::string_view name;
+    int value;
+    std::string_view meaning;
+  };
+  static constexpr std::array kConstants = {
+      Constant{"LeastCodedBytes", kLeastCodedBytes, "a line of depth is not coded in fewer"},
+      Constant{"MostCodedShift", kMostCodedShift, "a coded line has its bytes >> 1 to this"},
+      Constant{"ZEncodeLatency", kZEncodeLatency, "cycles from a line of depth to its bytes"},
+      Constant{"ZDecodeLatency", kZDecodeLatency, "and back"}};
+  std::string text;
+  for (const Constant& constant : kConstants) {
+    text.append("  // ").append(constant.meaning);
+    text.append("\n  parameter int unsigned ").append(constant.name);
+    text.append(" = ").append(std::to_string(constant.value)).append(";\n");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string raster_pkg() {
@@ -149,8 +172,8 @@ std::string raster_pkg() {
       R"(// Widths and packets of the links between the units, for every configuration.
 //
 // Printed by the target print_raster_pkg from model/halfspace/numerics/widths.hpp, model/halfspace/units/packets.hpp,
-// model/halfspace/units/link_packets.hpp and model/halfspace/machine/shape.hpp: change those and print this file
-// again. A configuration is chosen by defines:
+// model/halfspace/units/link_packets.hpp, model/halfspace/units/z_codec.hpp, model/halfspace/machine/shape.hpp and
+// model/halfspace/timing/contract.hpp: change those and print this file again. A configuration is chosen by defines:
 )";
   for (const Parameter& parameter : kParameters) {
     text += "// -D" + std::string(parameter.define) + "=" + std::string(parameter.legal) + "\n";
@@ -171,6 +194,7 @@ std::string raster_pkg() {
     text +=
         "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
   }
+  text += constants();
   std::vector<int Widths::*> types;
   add_signed_types<ScreenTrianglePacket>(types);
   add_signed_types<SetupTrianglePacket>(types);

@@ -24,10 +24,18 @@ inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 inline constexpr int kHiZEmptyLatency = 2;
 inline constexpr int kHiZUpdateLatency = 5;
 
-/// From a line that enters the write buffer until memory may take it, and from its last bytes from memory
-/// until it is there, where lines are coded.
+/// Registers of z_encoder and z_decoder.
 inline constexpr int kZEncodeLatency = 6;
 inline constexpr int kZDecodeLatency = 4;
+
+/// From a line that enters the write buffer until memory may take it, and from its last bytes from memory
+/// until it is there: the codec's registers, and the one that a line waits in for it.
+inline int encode_cycles(const Config& config) {
+  return config.z_cache.compression ? kZEncodeLatency + 1 : 0;
+}
+inline int decode_cycles(const Config& config) {
+  return config.z_cache.compression ? kZDecodeLatency + 1 : 0;
+}
 
 /// Largest capacity of a FIFO, and the size of the rings that remember when its packets left.
 inline constexpr std::size_t kMostCredits = 64;

@@ -70,8 +70,8 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   m.edge_latency = static_cast<std::uint64_t>(latency(Link::kEdgeEvaluator, config));
   m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
-  m.decode_latency = config.z_cache.compression ? kZDecodeLatency : 0;
-  m.encode_latency = config.z_cache.compression ? kZEncodeLatency : 0;
+  m.decode_latency = static_cast<std::uint64_t>(decode_cycles(config));
+  m.encode_latency = static_cast<std::uint64_t>(encode_cycles(config));
   return m;
 }
 

@@ -4,31 +4,20 @@
 #include <bit>
 #include <cstring>
 
+#include "halfspace/units/z_codec.hpp"
+
 namespace halfspace::rtl {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "words of ports are copied to and from bytes of memory");
 
-/// The codes of a line of `sample` bytes each, 2 or 4.
-void read_line(const std::uint8_t* bytes, std::size_t sample, std::span<std::uint32_t> codes) {
-  if (sample == sizeof(std::uint32_t)) {
-    std::memcpy(codes.data(), bytes, codes.size_bytes());
-    return;
-  }
-  for (std::uint32_t& code : codes) {
-    std::uint16_t half = 0;
-    std::memcpy(&half, bytes, sizeof half);
-    bytes += sizeof half;
-    code = half;
-  }
-}
-
 }  // namespace
 
 LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surfaces,
                        const std::vector<ZSurface>& places)
     : parts_(config.z_cache.parts),
+      tile_size_(config.tile_walker.tile_size),
       samples_(static_cast<std::uint32_t>(config.tile_walker.tile_size * config.tile_walker.tile_size /
                                           config.z_cache.parts)),
       latency_(static_cast<std::uint64_t>(config.memory.latency)),
@@ -40,6 +29,7 @@ LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surface
                           places[i].line_bytes);
   }
   bytes_.resize(bytes_of_line_.size() * stride_);
+  stored_ = bytes_of_line_;
   cleared_.resize(bytes_of_line_.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const std::uint32_t first = places[i].first_tile * static_cast<std::uint32_t>(parts_);
@@ -55,10 +45,11 @@ LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surface
   }
 }
 
-void LineMemory::request(std::uint64_t cycle, std::uint32_t line) {
+void LineMemory::request(std::uint64_t cycle, std::uint32_t line, std::uint32_t bytes) {
   Fill& fill = fills_.emplace_back();
   fill.first = std::max(cycle + latency_, read_free_);
-  fill.bytes.assign(bytes(line).begin(), bytes(line).end());
+  const std::span<std::uint8_t> from = this->bytes(line).first(bytes);
+  fill.bytes.assign(from.begin(), from.end());
   read_free_ = fill.first + std::max<std::uint64_t>(1, fill.bytes.size() / read_bytes_);
 }
 
@@ -78,15 +69,16 @@ bool LineMemory::fill(std::uint64_t cycle, std::span<std::uint32_t> words) {
   return true;
 }
 
-bool LineMemory::write(std::uint32_t line, std::span<const std::uint32_t> words) {
-  const std::span<std::uint8_t> to = bytes(line);
-  const std::uint32_t count = std::min(write_bytes_, static_cast<std::uint32_t>(to.size()) - written_);
+bool LineMemory::write(std::uint32_t line, std::uint32_t bytes, std::span<const std::uint32_t> words) {
+  const std::span<std::uint8_t> to = this->bytes(line).first(bytes);
+  const std::uint32_t count = std::min(write_bytes_, bytes - written_);
   std::memcpy(&to[written_], words.data(), count);
   written_ += count;
-  if (written_ != to.size()) {
+  if (written_ != bytes) {
     return false;
   }
   written_ = 0;
+  stored_[line] = bytes;
   cleared_[line] = false;
   return true;
 }
@@ -98,7 +90,10 @@ void LineMemory::clear(const ZSurface& place) {
 
 void LineMemory::read_surface(const ZSurface& place, std::uint32_t clear_code, Surface& surface) const {
   const auto parts = static_cast<std::uint32_t>(parts_);
-  const std::size_t sample = place.line_bytes / samples_;
+  const ZCodecShape shape{.width = tile_size_,
+                          .height = tile_size_ / parts_,
+                          .sample_bytes = static_cast<int>(place.line_bytes / samples_)};
+  std::vector<std::uint32_t> line_codes;
   for (std::uint32_t tile = 0; tile < place.tiles; ++tile) {
     std::uint32_t* codes =
         surface.codes.tile(static_cast<int>(tile % place.tiles_x), static_cast<int>(tile / place.tiles_x));
@@ -107,7 +102,8 @@ void LineMemory::read_surface(const ZSurface& place, std::uint32_t clear_code, S
       if (cleared_[line]) {
         std::fill_n(codes, samples_, clear_code);
       } else {
-        read_line(&bytes_[std::size_t{line} * stride_], sample, {codes, samples_});
+        z_decode({&bytes_[std::size_t{line} * stride_], stored_[line]}, shape, line_codes);
+        std::ranges::copy(line_codes, codes);
       }
       codes += samples_;
     }

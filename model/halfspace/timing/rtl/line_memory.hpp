@@ -17,19 +17,19 @@ class LineMemory {
   /// At first all surfaces are at depth 1.
   LineMemory(const Config& config, const std::vector<Surface>& surfaces, const std::vector<ZSurface>& places);
 
-  /// A request in `cycle`: its data is what the line holds now.
-  void request(std::uint64_t cycle, std::uint32_t line);
+  /// A request in `cycle`: its data is what the line holds now in its first `bytes`.
+  void request(std::uint64_t cycle, std::uint32_t line, std::uint32_t bytes);
   /// The beat of the read channel in `cycle`; false where it has none.
   bool fill(std::uint64_t cycle, std::span<std::uint32_t> words);
-  /// A beat of the write channel. Returns true with the last of the line.
-  bool write(std::uint32_t line, std::span<const std::uint32_t> words);
+  /// A beat of the write channel. Returns true with the last of the line's `bytes`.
+  bool write(std::uint32_t line, std::uint32_t bytes, std::span<const std::uint32_t> words);
 
   /// The lines of a surface are only marked cleared, until they are written.
   void clear(const ZSurface& place);
   /// The surface as whoever knows of its clear sees it.
   void read_surface(const ZSurface& place, std::uint32_t clear_code, Surface& surface) const;
 
-  /// Bytes of a line, or 0 where there is none.
+  /// Bytes of a line that is not coded, or 0 where there is none.
   [[nodiscard]] std::uint32_t line_bytes(std::uint32_t line) const {
     return line < bytes_of_line_.size() ? bytes_of_line_[line] : 0;
   }
@@ -46,6 +46,7 @@ class LineMemory {
   }
 
   int parts_;
+  int tile_size_;
   std::uint32_t samples_;  ///< of a line
   std::uint64_t latency_;
   std::uint32_t read_bytes_;
@@ -53,7 +54,8 @@ class LineMemory {
   std::size_t stride_;  ///< of the lines in bytes_
   std::vector<std::uint8_t> bytes_;
   std::vector<std::uint32_t> bytes_of_line_;
-  std::vector<bool> cleared_;  ///< by line
+  std::vector<std::uint32_t> stored_;  ///< bytes that were written last, by line
+  std::vector<bool> cleared_;          ///< by line
   std::deque<Fill> fills_;
   std::uint64_t read_free_ = 0;  ///< first cycle in which the read channel has nothing to move
   std::uint32_t written_ = 0;    ///< bytes of the line that is being written

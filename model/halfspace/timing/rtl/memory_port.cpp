@@ -8,17 +8,18 @@ namespace halfspace::rtl {
 void MemoryPort::offer_fill() { run_.in.fill_valid = memory_.fill(run_.cycle, run_.in.fill); }
 
 /// A line of memory that the RTL works on, and its size, are those that the model says.
-void MemoryPort::check_line(const char* what, std::uint32_t line, std::uint32_t want, bool half) {
+void MemoryPort::check_line(const char* what, const Line& want, const Line& got, bool half) {
   ++run_.report.compared;
-  const int tile_size = run_.config.tile_walker.tile_size;
-  const auto whole = static_cast<std::uint32_t>(4 * tile_size * tile_size / run_.config.z_cache.parts);
-  const std::uint32_t bytes = memory_.line_bytes(line);
-  if (line != want || half != (bytes < whole)) {
-    run_.report.differ(fmt::format("{} in cycle {}: model line {}, RTL line {} ({})", what, run_.cycle, want,
-                                   line, half ? "2 bytes a sample" : "4 bytes a sample"));
+  const std::uint32_t whole = memory_.line_bytes(got.line);
+  if (whole == 0) {
+    throw RtlError(fmt::format("{} in cycle {}: line {} is in no surface", what, run_.cycle, got.line));
   }
-  if (bytes == 0) {
-    throw RtlError(fmt::format("{} in cycle {}: line {} is in no surface", what, run_.cycle, line));
+  const int tile_size = run_.config.tile_walker.tile_size;
+  const auto full = static_cast<std::uint32_t>(4 * tile_size * tile_size / run_.config.z_cache.parts);
+  if (got.line != want.line || got.bytes != want.bytes || half != (whole < full)) {
+    run_.report.differ(fmt::format("{} in cycle {}: model line {} of {} bytes, RTL line {} of {} ({})", what,
+                                   run_.cycle, want.line, want.bytes, got.line, got.bytes,
+                                   half ? "2 bytes a sample" : "4 bytes a sample"));
   }
 }
 
@@ -28,12 +29,13 @@ void MemoryPort::request() {
     return;
   }
   const PipelineOutputs& out = run_.out;
-  check_line("request", out.read_line, reads_.front(), out.read_half);
+  const Line line{.line = out.read_line, .bytes = memory_.line_bytes(out.read_line) >> out.read_shift};
+  check_line("request", reads_.front(), line, out.read_half);
   reads_.pop_front();
-  memory_.request(run_.cycle, out.read_line);
-  const int bytes = static_cast<int>(memory_.line_bytes(out.read_line));
+  memory_.request(run_.cycle, line.line, line.bytes);
   run_.meter.transfer(&CycleStats::read_busy, lookup_draw_,
-                      static_cast<std::uint64_t>(transfer_cycles(bytes, run_.config.memory.read_bytes)));
+                      static_cast<std::uint64_t>(
+                          transfer_cycles(static_cast<int>(line.bytes), run_.config.memory.read_bytes)));
 }
 
 void MemoryPort::write() {
@@ -42,13 +44,14 @@ void MemoryPort::write() {
     return;
   }
   const PipelineOutputs& out = run_.out;
+  const Line line{.line = out.write_line, .bytes = memory_.line_bytes(out.write_line) >> out.write_shift};
   if (!in_write_) {
-    check_line("write", out.write_line, writes_.front().line, out.write_half);
+    check_line("write", writes_.front(), line, out.write_half);
   }
   run_.pipeline.write_data(write_words_);
-  const bool last = memory_.write(out.write_line, write_words_);
+  const bool last = memory_.write(line.line, line.bytes, write_words_);
   if (last != out.write_last) {
-    run_.report.differ(fmt::format("write of line {}: write_last_o is {} in cycle {}", out.write_line,
+    run_.report.differ(fmt::format("write of line {}: write_last_o is {} in cycle {}", line.line,
                                    out.write_last ? 1 : 0, run_.cycle));
   }
   run_.meter.transfer(&CycleStats::write_busy, written_for_.front(), 1);
@@ -56,7 +59,7 @@ void MemoryPort::write() {
   if (last) {
     if (written_for_.front() == nullptr) {
       ++run_.result.flushed_lines;
-      run_.result.flushed_bytes += memory_.line_bytes(out.write_line);
+      run_.result.flushed_bytes += line.bytes;
     }
     written_for_.pop_front();
     writes_.pop_front();

@@ -14,10 +14,12 @@ class MemoryPort {
  public:
   explicit MemoryPort(RunState& run) : run_(run), memory_(run.config, run.result.surfaces, run.places) {}
 
-  // What the model expects.
-  void expect_read(std::uint32_t line) { reads_.push_back(line); }
-  void expect_write(DrawContext* draw, std::uint32_t line) {
-    writes_.push_back({.draw = draw, .line = line});
+  // What the model expects: lines, and the bytes that memory has of them.
+  void expect_read(std::uint32_t line, std::uint32_t bytes) {
+    reads_.push_back({.line = line, .bytes = bytes});
+  }
+  void expect_write(std::uint32_t line, std::uint32_t bytes) {
+    writes_.push_back({.line = line, .bytes = bytes});
   }
   /// The lookup works for this draw.
   void look_up_for(DrawContext* draw) { lookup_draw_ = draw; }
@@ -35,18 +37,18 @@ class MemoryPort {
   void expect_no_more();
 
  private:
-  struct ExpectedWrite {
-    DrawContext* draw = nullptr;  ///< null: of the flush
+  struct Line {
     std::uint32_t line = 0;
+    std::uint32_t bytes = 0;
   };
 
-  void check_line(const char* what, std::uint32_t line, std::uint32_t want, bool half);
+  void check_line(const char* what, const Line& want, const Line& got, bool half);
 
   RunState& run_;
   LineMemory memory_;
   DrawContext* lookup_draw_ = nullptr;
-  std::deque<std::uint32_t> reads_;
-  std::deque<ExpectedWrite> writes_;
+  std::deque<Line> reads_;
+  std::deque<Line> writes_;
   std::deque<DrawContext*> written_for_;  ///< lines in the write buffer
   std::vector<std::uint32_t> write_words_;
   bool in_write_ = false;

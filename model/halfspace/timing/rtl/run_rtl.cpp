@@ -24,9 +24,6 @@ void check_options(const EngineOptions& options) {
 }
 
 void check_size(const Frame& frame, const RunState& run) {
-  if (run.config.z_cache.compression) {
-    throw InputError("configuration key 'z_cache.compression' is true; legal for the RTL: false");
-  }
   const std::uint32_t tiles = run.places.empty() ? 0 : run.places.back().first_tile + run.places.back().tiles;
   const int size = run.config.tile_walker.tile_size;
   if (tiles > kMemoryTiles) {

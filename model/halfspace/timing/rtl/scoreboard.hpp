@@ -75,8 +75,8 @@ class Scoreboard {
   }
 
   void flush() {
-    z_cache_.flush([&](std::uint32_t /*slot*/, std::uint32_t line, std::uint32_t /*bytes*/) {
-      memory_.expect_write(nullptr, line);
+    z_cache_.flush([&](std::uint32_t /*slot*/, std::uint32_t line, std::uint32_t bytes) {
+      memory_.expect_write(line, bytes);
     });
   }
 
@@ -317,10 +317,10 @@ class Scoreboard {
           passage::z_access<TileSize>(coverage, passed, stored, draw, place, run_.config), draw);
       for (const ZMiss& miss : misses.parts()) {
         if (miss.fetch) {
-          memory_.expect_read(miss.line);
+          memory_.expect_read(miss.line, miss.bytes);
         }
         if (miss.write_back) {
-          memory_.expect_write(&draw, miss.victim);
+          memory_.expect_write(miss.victim, miss.victim_bytes);
         }
       }
     }

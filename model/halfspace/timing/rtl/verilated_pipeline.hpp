@@ -39,8 +39,10 @@ struct PipelineOutputs {
   bool beat_valid = false;
   bool read_valid = false;
   bool read_half = false;
+  int read_shift = 0;
   bool write_valid = false;
   bool write_half = false;
+  int write_shift = 0;
   bool write_last = false;
   bool idle = false;
   std::uint32_t read_line = 0;

@@ -113,7 +113,7 @@ Cycle ZLookup::request(std::uint32_t line) {
                         looked_up_.draw);
   FillToken fill{.draw = looked_up_.draw, .codes = {}};
   cache_.unpack(line, bytes_, fill.codes);
-  const Cycle decoded = filled + (run_.config.z_cache.compression ? kZDecodeLatency : 0);
+  const Cycle decoded = filled + static_cast<Cycle>(decode_cycles(run_.config));
   cache_.fill_buffers.put(std::move(fill), decoded);
   return decoded;
 }

@@ -150,7 +150,7 @@ TestedToken ZTest::test(PendingToken& token) {
 
 void ZTest::write_back() {
   run_.guard([&] {
-    const Cycle encode = run_.config.z_cache.compression ? kZEncodeLatency : 0;
+    const auto encode = static_cast<Cycle>(encode_cycles(run_.config));
     for (;;) {
       const Cycle at = std::max(cache_.write_buffers.visible() + encode, cache_.next_write);
       run_.clock.wait_until(at);
