@@ -23,7 +23,7 @@ struct CodecCommandLine {
   std::string model;
   std::string test_case = "all";
   std::uint64_t seed = 1;
-  std::uint64_t lines = 20000;
+  std::uint64_t lines = 8000;
   std::string wave;
   std::string coverage;
   std::string fault = "none";
