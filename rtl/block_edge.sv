@@ -8,12 +8,17 @@
 // What lies between the block's top left sample and that corner of a tile is the same in every block: the sum of a number
 // for the tile's row and one for its column. So a test is two adders, of which only the sign is used, and the first is
 // that of the whole row.
+//
+// Of a triangle with few samples the same adders test these: rows and columns are those of samples, from the first of the
+// bounds on.
 
 module block_edge
   import raster_pkg::*;
 #(
   /// 0: no tile is found to be outside.
-  parameter bit TrivialReject = 1'b1
+  parameter bit TrivialReject = 1'b1,
+  /// 1: samples_i counts.
+  parameter bit SampleReject = 1'b0
 ) (
   input  logic                  clk_i,
 
@@ -22,6 +27,10 @@ module block_edge
   input  edge_t                 edge_i,
   input  step_t                 a_i,
   input  step_t                 b_i,
+  // Test samples, not tiles: from this one on, as many in rows and columns as the block has tiles.
+  input  logic                  samples_i,
+  input  logic [BlockLog2-1:0]  x_i,
+  input  logic [BlockLog2-1:0]  y_i,
 
   input  logic                  advance_i, // to the next block, at the end of the cycle
   input  logic                  row_end_i, // the block is the last of its row
@@ -29,11 +38,10 @@ module block_edge
   output edge_t                 edge_o,    // at the block's top left sample
   output step_t                 a_o,
   output step_t                 b_o,
-  output logic [BlockTiles-1:0] outside_o  // tiles all of whose samples are outside
+  output logic [BlockTiles-1:0] outside_o  // tiles all of whose samples are outside, or samples
 );
 
   localparam int unsigned RowTiles = BlockSize / TileSize;
-  localparam int unsigned RowBits = BlockLog2 - TileLog2;
 
   typedef logic signed [PixelEdgeBits-1:0] pixel_edge_t;
 
@@ -73,20 +81,20 @@ module block_edge
   assign a_o    = a_q;
   assign b_o    = b_q;
 
-  if (TrivialReject) begin : gen_reject
+  if (TrivialReject || SampleReject) begin : gen_reject
     localparam int unsigned SumBits = StepBits + 1;
-    localparam int unsigned AcrossBits = StepBits + RowBits;
-    localparam int unsigned DownBits = StepBits + BlockLog2 + 1;
+    localparam int unsigned AcrossBits = StepBits + BlockLog2;
+    localparam int unsigned DownBits = StepBits + BlockLog2 + 2;
 
     typedef logic signed [SumBits-1:0] sum_t;
     typedef logic signed [AcrossBits-1:0] across_t;
     typedef logic signed [DownBits-1:0] down_t;
 
     // `count` steps, as a sum of shifted ones.
-    function automatic across_t steps(step_t one, int unsigned count);
+    function automatic across_t steps(step_t one, logic [BlockLog2-1:0] count);
       steps = '0;
-      for (int unsigned i = 0; i < RowBits; i++) begin
-        if (((count >> i) & 1) == 1) begin
+      for (int unsigned i = 0; i < BlockLog2; i++) begin
+        if (count[i]) begin
           steps = steps + (across_t'(one) <<< i);
         end
       end
@@ -98,16 +106,30 @@ module block_edge
       return (down_t'(rising) <<< TileLog2) - down_t'(rising);
     endfunction
 
-    // To a row of tiles, and there to where E is largest in its first tile; to a column, in steps of a tile.
+    // To a row, and there to the point of its first tile or sample; to a column.
     down_t   down_q   [RowTiles];
     across_t across_q [RowTiles];
+    down_t   first_sample;
 
+    assign first_sample = down_t'(steps(a_i, x_i)) + down_t'(steps(b_i, y_i));
+
+    for (genvar i = 0; i < RowTiles; i++) begin : gen_steps
+      localparam logic [BlockLog2-1:0] Sample = BlockLog2'(i);
+      localparam logic [BlockLog2-1:0] Tile = BlockLog2'(i * TileSize);
+      always_ff @(posedge clk_i) begin
+        if (load_i) begin
+          down_q[i]   <= SampleReject && samples_i
+                         ? down_t'(steps(b_i, Sample)) + first_sample
+                         : down_t'(steps(b_i, Tile)) + to_largest(a_i, b_i);
+          across_q[i] <= SampleReject && samples_i ? steps(a_i, Sample) : steps(a_i, Tile);
+        end
+      end
+    end
+
+    logic samples_q;
     always_ff @(posedge clk_i) begin
       if (load_i) begin
-        for (int unsigned i = 0; i < RowTiles; i++) begin
-          down_q[i]   <= (down_t'(steps(b_i, i)) <<< TileLog2) + to_largest(a_i, b_i);
-          across_q[i] <= steps(a_i, i);
-        end
+        samples_q <= samples_i;
       end
     end
 
@@ -116,11 +138,20 @@ module block_edge
       assign first = here_q + pixel_edge_t'(down_q[y]);
       for (genvar x = 0; x < RowTiles; x++) begin : gen_tile
         assign outside_o[y*RowTiles+x] =
-            first + (pixel_edge_t'(across_q[x]) <<< TileLog2) < $signed(PixelEdgeBits'(0));
+            first + pixel_edge_t'(across_q[x]) < $signed(PixelEdgeBits'(0))
+            && (TrivialReject || samples_q);
       end
+    end
+
+    if (!SampleReject) begin : gen_unused
+      logic unused_samples;
+      assign unused_samples = ^{first_sample, samples_q};
     end
   end else begin : gen_no_reject
     assign outside_o = '0;
+
+    logic unused_samples;
+    assign unused_samples = ^{samples_i, x_i, y_i};
   end
 
 endmodule

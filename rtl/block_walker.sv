@@ -13,6 +13,8 @@ module block_walker
   parameter int unsigned FifoDepth = 4,
   /// 0: every tile that the bounds touch is in the mask. Saves most of the gates.
   parameter bit TrivialReject = 1'b1,
+  /// 1: of a triangle that lies in one block and has few samples, only tiles in which one is covered are in the mask.
+  parameter bit SampleReject = 1'b0,
   /// 1: the plane of depth is walked with the edges, for hi_z. 0: it is 0.
   parameter bit HiZ = 1'b0
 ) (
@@ -55,6 +57,7 @@ module block_walker
   logic step, row_end, last_block;
 
   block_job_t            job_d;
+  logic [BlockLog2-1:0]  x_first, x_last, y_first, y_last;
   logic [BlockTiles-1:0] touched;
   logic [BlockTiles-1:0] outside [EdgeCount];
 
@@ -70,22 +73,38 @@ module block_walker
     .last_o    (last_block),
     .block_x_o (job_d.block_x),
     .block_y_o (job_d.block_y),
-    .x_first_o (job_d.x_first),
-    .x_last_o  (job_d.x_last),
-    .y_first_o (job_d.y_first),
-    .y_last_o  (job_d.y_last),
+    .x_first_o (x_first),
+    .x_last_o  (x_last),
+    .y_first_o (y_first),
+    .y_last_o  (y_last),
     .touched_o (touched)
   );
 
+  // Few samples: the bounds lie in one block, and have no more columns and rows than a block has of tiles.
+  typedef logic [PixelBits-1:0] pixel_t;
+
+  function automatic logic is_short(pixel_t first, pixel_t last);
+    return first[PixelBits-1:BlockLog2] == last[PixelBits-1:BlockLog2]
+           && last - first < pixel_t'(RowTiles);
+  endfunction
+
+  logic samples;
+  assign samples = SampleReject && is_short(triangle_i.x_first, triangle_i.x_last)
+                   && is_short(triangle_i.y_first, triangle_i.y_last);
+
   for (genvar i = 0; i < EdgeCount; i++) begin : gen_edge
     block_edge #(
-      .TrivialReject (TrivialReject)
+      .TrivialReject (TrivialReject),
+      .SampleReject  (SampleReject)
     ) u_edge (
       .clk_i     (clk_i),
       .load_i    (load),
       .edge_i    (triangle_i.e[i]),
       .a_i       (triangle_i.a[i]),
       .b_i       (triangle_i.b[i]),
+      .samples_i (samples),
+      .x_i       (triangle_i.x_first[BlockLog2-1:0]),
+      .y_i       (triangle_i.y_first[BlockLog2-1:0]),
       .advance_i (step),
       .row_end_i (row_end),
       .edge_o    (job_d.e[i]),
@@ -120,12 +139,62 @@ module block_walker
     assign unused_plane = ^{triangle_i.z, triangle_i.z_dx, triangle_i.z_dy, triangle_i.z_known};
   end
 
+  // What is inside all edges: tiles, or samples.
+  logic [BlockTiles-1:0] in_all;
+
   always_comb begin
-    job_d.sure  = '0;
-    job_d.tiles = touched;
+    in_all = '1;
     for (int unsigned i = 0; i < EdgeCount; i++) begin
-      job_d.tiles &= ~outside[i];
+      in_all &= ~outside[i];
     end
+  end
+
+  assign job_d.sure    = '0;
+  assign job_d.x_first = x_first;
+  assign job_d.x_last  = x_last;
+  assign job_d.y_first = y_first;
+  assign job_d.y_last  = y_last;
+
+  if (SampleReject) begin : gen_samples
+    logic samples_q;
+    always_ff @(posedge clk_i) begin
+      if (load) begin
+        samples_q <= samples;
+      end
+    end
+
+    // Of the columns of samples those in each column of tiles, and likewise of rows; in the bounds.
+    typedef logic [RowTiles-1:0] row_t;
+    typedef logic [BlockLog2:0] place_t; // beyond the block, too
+
+    function automatic row_t samples_of(place_t tile, logic [BlockLog2-1:0] first,
+                                        logic [BlockLog2-1:0] last);
+      for (int unsigned i = 0; i < RowTiles; i++) begin
+        automatic place_t place = place_t'(first) + place_t'(i);
+        samples_of[i] = place <= place_t'(last) && place >> TileLog2 == tile;
+      end
+    endfunction
+
+    for (genvar y = 0; y < RowTiles; y++) begin : gen_row
+      row_t rows;
+      assign rows = samples_of(place_t'(y), y_first, y_last);
+      for (genvar x = 0; x < RowTiles; x++) begin : gen_tile
+        row_t columns;
+        logic covered;
+        assign columns = samples_of(place_t'(x), x_first, x_last);
+
+        always_comb begin
+          covered = 1'b0;
+          for (int unsigned row = 0; row < RowTiles; row++) begin
+            covered |= rows[row] & (|(in_all[row*RowTiles+:RowTiles] & columns));
+          end
+        end
+        assign job_d.tiles[y*RowTiles+x] =
+            touched[y*RowTiles+x] & (samples_q ? covered : in_all[y*RowTiles+x]);
+      end
+    end
+  end else begin : gen_tiles
+    assign job_d.tiles = touched & in_all;
   end
 
   // A step waits for a credit, which only a block that leaves uses.

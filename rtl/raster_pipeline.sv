@@ -13,6 +13,7 @@ module raster_pipeline
   parameter int unsigned SetupInterval = 1,
   parameter int unsigned SetupFifo = 40,
   parameter bit          TrivialReject = 1'b1,
+  parameter bit          SampleReject = 1'b0,
   parameter int unsigned BlockFifo = 4,
   parameter bit          HiZ = 1'b0,
   parameter bit          HiZAccept = 1'b1,
@@ -142,6 +143,7 @@ module raster_pipeline
   block_walker #(
     .FifoDepth     (BlockFifo),
     .TrivialReject (TrivialReject),
+    .SampleReject  (SampleReject),
     .HiZ           (HiZ)
   ) u_block_walker (
     .clk_i            (clk_i),

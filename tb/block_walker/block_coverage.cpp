@@ -75,6 +75,15 @@ BlockCoverage::BlockCoverage(const BlockWalkerParameters& parameters) : paramete
       bins_.add(wait_name(first, last));
     }
   }
+  if (parameters.sample_reject) {
+    for (const char* tiles : {"0", "1", "2", "3", "4"}) {
+      bins_.add(fmt::format("few samples, covered in {} tiles", tiles));
+    }
+    for (const int side : {1, parameters.sizes.row_tiles()}) {
+      bins_.add(fmt::format("few samples, {} columns", side));
+      bins_.add(fmt::format("few samples, {} rows", side));
+    }
+  }
   bins_.add("taken when idle");
   bins_.add("reset in a wait");
   bins_.add(kLastSlot);
@@ -95,6 +104,10 @@ void BlockCoverage::taken(const std::vector<BlockStep>& steps, std::uint8_t slot
 }
 
 void BlockCoverage::step(const BlockStep& step, const std::array<std::size_t, 3>& direction) {
+  if (step.few_samples) {
+    few_samples(step);
+    return;
+  }
   const auto has = [](std::uint64_t tiles, std::size_t tile) { return (tiles >> tile & 1) != 0; };
   std::uint64_t kept = step.touched;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -128,6 +141,17 @@ void BlockCoverage::step(const BlockStep& step, const std::array<std::size_t, 3>
   count(cuts_[1][step.job.x_last == last ? 1 : 0]);
   count(cuts_[2][step.job.y_first == 0 ? 1 : 0]);
   count(cuts_[3][step.job.y_last == last ? 1 : 0]);
+}
+
+void BlockCoverage::few_samples(const BlockStep& step) {
+  bins_.hit(fmt::format("few samples, covered in {} tiles", std::popcount(step.job.tiles)));
+  const auto side = [&](int count, const char* what) {
+    if (count == 1 || count == parameters_.sizes.row_tiles()) {
+      bins_.hit(fmt::format("few samples, {} {}", count, what));
+    }
+  };
+  side(step.job.x_last - step.job.x_first + 1, "columns");
+  side(step.job.y_last - step.job.y_first + 1, "rows");
 }
 
 void BlockCoverage::shape(const std::vector<BlockStep>& steps) {

@@ -33,6 +33,7 @@ class BlockCoverage {
   using EdgeCounters = std::array<std::array<std::uint64_t*, kDirections>, 3>;
 
   void step(const BlockStep& step, const std::array<std::size_t, 3>& direction);
+  void few_samples(const BlockStep& step);
   void shape(const std::vector<BlockStep>& steps);
 
   BlockWalkerParameters parameters_;

@@ -42,9 +42,9 @@ struct BlockWalkerPins {
 
 template <class Model>
 BlockWalkerModel verilated(const std::string& name, int tile_size, int block_size, int sub_pixel_bits,
-                           int fifo_depth, bool reject, bool hi_z) {
+                           int fifo_depth, bool reject, bool samples, bool hi_z) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, BlockWalkerPins>},
-          {{tile_size, block_size, sub_pixel_bits}, fifo_depth, reject, hi_z}};
+          {{tile_size, block_size, sub_pixel_bits}, fifo_depth, reject, samples, hi_z}};
 }
 
 }  // namespace halfspace::tb

@@ -36,23 +36,49 @@ SetupTriangle to_model(const SetupTrianglePacket& packet, const BlockWalkerParam
 /// What the unit tells, as steps.
 class StepSink {
  public:
-  StepSink(const BlockWalkerParameters& parameters, std::vector<BlockStep>& steps)
-      : parameters_(parameters), steps_(steps) {}
+  StepSink(const BlockWalkerParameters& parameters, const PixelRect& bounds, std::vector<BlockStep>& steps)
+      : parameters_(parameters), steps_(steps) {
+    const int block = parameters.sizes.block_size;
+    const int most = parameters.sizes.row_tiles();
+    const auto is_short = [&](int first, int last) {
+      return first / block == last / block && last - first < most;
+    };
+    few_samples_ = parameters.sample_reject && is_short(bounds.x_first, bounds.x_last) &&
+                   is_short(bounds.y_first, bounds.y_last);
+  }
 
   void block(const BlockJob& job, std::uint64_t touched) {
-    BlockStep step{.job = job, .touched = touched};
+    BlockStep step{.job = job, .touched = touched, .few_samples = few_samples_};
     std::uint64_t left = touched;
     for (std::size_t i = 0; i < 3; ++i) {
       test(i, step);
       left &= ~(parameters_.trivial_reject ? step.outside[i] : 0);
     }
-    if (left != job.tiles) {
-      throw std::logic_error("block_walker.hpp and the corner samples of a tile say different things");
+    if ((few_samples_ ? covered(step) : left) != job.tiles) {
+      throw std::logic_error("block_walker.hpp and the samples of a tile say different things");
     }
     steps_.push_back(step);
   }
 
  private:
+  /// The tiles that hold a covered sample of the bounds.
+  [[nodiscard]] std::uint64_t covered(const BlockStep& step) const {
+    const WalkSizes& sizes = parameters_.sizes;
+    const BlockJob& job = step.job;
+    std::uint64_t tiles = 0;
+    for (std::int64_t y = job.y_first; y <= job.y_last; ++y) {
+      for (std::int64_t x = job.x_first; x <= job.x_last; ++x) {
+        bool inside = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+          inside = inside && job.e[i] + ((job.a[i] * x + job.b[i] * y) << sizes.sub_pixel_bits) >= 0;
+        }
+        const std::int64_t tile = y / sizes.tile_size * sizes.row_tiles() + x / sizes.tile_size;
+        tiles |= std::uint64_t{inside} << tile;
+      }
+    }
+    return tiles;
+  }
+
   /// Edge i, at the four corner samples of every tile.
   void test(std::size_t i, BlockStep& step) const {
     const WalkSizes& sizes = parameters_.sizes;
@@ -74,6 +100,7 @@ class StepSink {
 
   const BlockWalkerParameters& parameters_;
   std::vector<BlockStep>& steps_;
+  bool few_samples_ = false;
 };
 
 }  // namespace
@@ -88,7 +115,7 @@ std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle, s
   const SetupTriangle model =
       to_model(unpack<SetupTrianglePacket>(triangle, parameters.sizes.widths()), parameters);
   std::vector<BlockStep> steps;
-  StepSink sink(parameters, steps);
+  StepSink sink(parameters, model.bounds, steps);
   with_tile_size(parameters.sizes.tile_size,
                  [&](auto size) { block_walker<size()>(model, parameters.walker(), slot, sink); });
   return steps;

@@ -18,12 +18,14 @@ struct BlockWalkerParameters {
   WalkSizes sizes;
   int fifo_depth = 4;
   bool trivial_reject = true;
+  bool sample_reject = false;
   bool hi_z = false;
 
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = sizes.sub_pixel_bits,
             .block_size = sizes.block_size,
-            .trivial_reject = trivial_reject};
+            .trivial_reject = trivial_reject,
+            .sample_reject = sample_reject};
   }
 };
 
@@ -33,6 +35,7 @@ struct BlockStep {
   std::uint64_t touched = 0;               ///< by the bounds
   std::array<std::uint64_t, 3> outside{};  ///< of those: all samples outside the edge
   std::array<std::uint64_t, 3> inside{};   ///< all inside
+  bool few_samples = false;                ///< these are tested, not tiles
   [[nodiscard]] bool leaves() const { return job.tiles != 0; }
 };
 
@@ -46,7 +49,7 @@ struct InputWords {
 };
 
 /// The walk of a triangle packet, by model/halfspace/units/block_walker.hpp. The sets of tiles are made from
-/// all corner samples of each, and must agree with its masks.
+/// all corner samples of each, or from all samples of few, and must agree with its masks.
 [[nodiscard]] std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle,
                                                     std::uint8_t slot,
                                                     const BlockWalkerParameters& parameters);

@@ -157,9 +157,11 @@ Points random_points(const WalkSizes& sizes, Random& random) {
     }
   };
   const Point centre{coordinate(), coordinate()};
-  switch (random.below(10)) {
+  switch (random.below(11)) {
     case 0:
       return all_around(centre, one);
+    case 9:  // few samples of the tiles around a corner
+      return all_around({(centre.x + tile / 2) / tile * tile, (centre.y + tile / 2) / tile * tile}, 2 * one);
     case 1:
       return all_around(centre, tile / 2);
     case 2:

@@ -183,9 +183,10 @@ TEST_CASE("the image depends neither on vertex order, nor on draw order, tile si
     check(run_surface(other.frame));
   }
   SECTION("any machine") {
-    for (const char* setting : {"tile_walker.tile_size=4", "tile_walker.tile_size=16",
-                                "block_walker.block_size=16", "block_walker.block_size=64",
-                                "block_walker.trivial_reject=false", "tile_walker.trivial_accept=false"}) {
+    for (const char* setting :
+         {"tile_walker.tile_size=4", "tile_walker.tile_size=16", "block_walker.block_size=16",
+          "block_walker.block_size=64", "block_walker.trivial_reject=false",
+          "block_walker.sample_reject=true", "tile_walker.trivial_accept=false"}) {
       CAPTURE(setting);
       Config config;
       set_config(config, setting);

@@ -36,6 +36,7 @@ inline Config random_config(Random& random) {
     config.block_walker.block_size = config.tile_walker.tile_size * pick(random, {2, 4, 8});
   } while (config.block_walker.block_size > 64);
   config.block_walker.trivial_reject = random.between(0, 3) != 0;
+  config.block_walker.sample_reject = random.between(0, 2) == 0;
   config.tile_walker.trivial_accept = random.between(0, 3) != 0;
   config.hi_z.enabled = random.between(0, 2) == 0;
   config.hi_z.accept = random.between(0, 3) != 0;
@@ -90,6 +91,7 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.tile_walker.tile_size = recorded.tile_walker.tile_size;
     config.block_walker.block_size = recorded.block_walker.block_size;
     config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
+    config.block_walker.sample_reject = recorded.block_walker.sample_reject;
     config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
     config.hi_z.enabled = recorded.hi_z.enabled;
     config.hi_z.accept = recorded.hi_z.accept;

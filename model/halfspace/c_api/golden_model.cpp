@@ -56,7 +56,8 @@ ChainContext& GoldenModel::context() {
   context->walker = {.sub_pixel_bits = config_.raster.sub_pixel_bits,
                      .block_size = config_.block_walker.block_size,
                      .trivial_reject = config_.block_walker.trivial_reject,
-                     .trivial_accept = config_.tile_walker.trivial_accept};
+                     .trivial_accept = config_.tile_walker.trivial_accept,
+                     .sample_reject = config_.block_walker.sample_reject};
   for (int link = 0; link < HALFSPACE_LINKS; ++link) {
     context->expected.emplace_back(words_for(link_bits(static_cast<LinkId>(link), context->widths)));
   }

@@ -46,6 +46,8 @@
         HALFSPACE_BLOCK_SIZE)                                                                                \
     MODULE(block_walker., trivial_reject, bool, true, boolean(), "", function,                               \
         "drop tiles that are outside one edge", TrivialReject)                                               \
+    MODULE(block_walker., sample_reject, bool, false, boolean(), "", function,                               \
+        "drop tiles without a covered sample, of triangles whose bounds hold few", SampleReject)             \
     MODULE(block_walker., fifo, int, 4, range(2, 8), "blocks", time,                                         \
         "output FIFO of the block walker", BlockFifo)                                                        \
   END(block_walker)                                                                                          \

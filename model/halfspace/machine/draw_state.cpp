@@ -48,7 +48,8 @@ WalkerConfig walker_config(const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .block_size = config.block_walker.block_size,
           .trivial_reject = config.block_walker.trivial_reject,
-          .trivial_accept = config.tile_walker.trivial_accept};
+          .trivial_accept = config.tile_walker.trivial_accept,
+          .sample_reject = config.block_walker.sample_reject};
 }
 
 DepthLimits depth_limits(const Command& draw, DepthFormat format) {

@@ -1,8 +1,9 @@
 /// block_walker: from a triangle to the blocks that it may touch, each with a mask of its tiles.
 ///
 /// It visits the blocks of the bounds in row order. In each it tests all tiles that the bounds touch at once,
-/// and leaves out those all of whose samples are outside one edge. A block that is left with no tile goes
-/// nowhere.
+/// and leaves out those all of whose samples are outside one edge. Of a triangle whose bounds lie in one
+/// block and hold few samples it tests these instead, and leaves out the tiles in which none is covered: the
+/// tests of as many tiles do for it. A block that is left with no tile goes nowhere.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +24,28 @@ constexpr std::uint64_t tiles_of_rect(const PixelRect& inside, int block_size) {
   std::uint64_t tiles = 0;
   for (int y = inside.y_first / TileSize; y <= inside.y_last / TileSize; ++y) {
     tiles |= row << (y * row_tiles);
+  }
+  return tiles;
+}
+
+/// The bounds lie in one block, and have no more columns and rows than a block has of tiles.
+constexpr bool has_few_samples(const PixelRect& bounds, int block_size, int row_tiles) {
+  return bounds.x_first / block_size == bounds.x_last / block_size &&
+         bounds.y_first / block_size == bounds.y_last / block_size &&
+         bounds.x_last - bounds.x_first < row_tiles && bounds.y_last - bounds.y_first < row_tiles;
+}
+
+/// The tiles of a block, as in BlockJob, in which a sample of `inside`, pixels of the block, is covered.
+/// `block`: edges at its top left sample.
+template <int TileSize>
+constexpr std::uint64_t covered_tiles(const SquareEdges& block, const PixelRect& inside, int row_tiles) {
+  std::uint64_t tiles = 0;
+  for (int y = inside.y_first; y <= inside.y_last; ++y) {
+    for (int x = inside.x_first; x <= inside.x_last; ++x) {
+      const std::array<std::int64_t, 3> e = block.at(x, y);
+      const bool covered = e[0] >= 0 && e[1] >= 0 && e[2] >= 0;
+      tiles |= std::uint64_t{covered} << (y / TileSize * row_tiles + x / TileSize);
+    }
   }
   return tiles;
 }
@@ -63,6 +86,12 @@ void block_walker(const SetupTriangle& triangle, const WalkerConfig& config, std
       job.y_last = static_cast<std::uint8_t>(inside.y_last);
       const std::uint64_t touched = tiles_of_rect<TileSize>(inside, size);
       job.tiles = touched;
+      if (config.sample_reject && has_few_samples(bounds, size, row_tiles)) {
+        job.tiles = covered_tiles<TileSize>(SquareEdges(job.e, job.a, job.b, config.sub_pixel_bits), inside,
+                                            row_tiles);
+        sink.block(job, touched);
+        continue;
+      }
       for (std::uint64_t left = config.trivial_reject ? touched : 0; left != 0; left &= left - 1) {
         const int tile = std::countr_zero(left);
         const std::array<std::int64_t, 3> e =

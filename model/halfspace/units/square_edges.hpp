@@ -18,6 +18,7 @@ struct WalkerConfig {
   int block_size = 32;  ///< pixels; 2, 4 or 8 tiles
   bool trivial_reject = true;
   bool trivial_accept = true;
+  bool sample_reject = false;
 };
 
 /// Edges by the pixel.

@@ -1,0 +1,76 @@
+// What a machine skips changes nothing of the picture: any set of its switches, on any machine.
+#include <catch2/catch.hpp>
+
+#include "../result_difference.hpp"
+#include "halfspace/machine/in_order.hpp"
+#include "hard_frames.hpp"
+
+namespace halfspace::testing {
+namespace {
+
+/// A frame counts as so many samples.
+constexpr std::uint64_t kFrameSamples = 2000;
+
+constexpr const char* kSwitches[] = {
+    "block_walker.trivial_reject", "block_walker.sample_reject", "hi_z.enabled",       "hi_z.accept",
+    "tile_walker.trivial_accept",  "z_cache.compression",        "z_cache.fast_clear",
+};
+
+Frame any_frame(Random& random) {
+  switch (random.between(0, 3)) {
+    case 0:
+      return random_frame(random);
+    case 1:
+      return depth_stack(random);
+    case 2:
+      return touching_planes(random);
+    default:
+      return hard_frame(random);
+  }
+}
+
+/// Random, or all off; hi_z stays off where a block has too many parts of tiles for it.
+Config with_switches(Random& random, Config config, bool off) {
+  for (const char* name : kSwitches) {
+    set_config(config, name, off || random.between(0, 1) == 0 ? "false" : "true");
+  }
+  try {
+    validate(config);
+  } catch (const InputError&) {
+    config.hi_z.enabled = false;
+  }
+  return config;
+}
+
+std::string picture_difference(const FrameResult& ours, const FrameResult& other) {
+  std::string text;
+  for (std::size_t i = 0; i < ours.surfaces.size(); ++i) {
+    const std::string name = "surface " + std::to_string(i) + " ";
+    text += image_difference(name + "codes", ours.surfaces[i].codes, other.surfaces[i].codes);
+    text += image_difference(name + "survivors", ours.surfaces[i].survivors, other.surfaces[i].survivors);
+    text += image_difference(name + "visible", ours.surfaces[i].visible, other.surfaces[i].visible);
+  }
+  for (std::size_t i = 0; i < ours.draws.size(); ++i) {
+    const EarlyZCounters& a = ours.draws[i].counters.early_z;
+    const EarlyZCounters& b = other.draws[i].counters.early_z;
+    text += difference("survivors", a.survivors, b.survivors) + difference("written", a.written, b.written);
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("switches: whatever is skipped, the picture is the same", "[property]") {
+  Random random(seed());
+  const Watch watch{.keep_visible = true};
+  for (std::uint64_t left = samples(1'000'000) / kFrameSamples; left > 0; --left) {
+    const Config base = random_config(random);
+    const Frame frame = any_frame(random);
+    const Config config = with_switches(random, base, false);
+    const FrameResult all_off = run_in_order(frame, with_switches(random, base, true), watch, nullptr);
+    INFO(difference_from_default(config));
+    REQUIRE(picture_difference(run_in_order(frame, config, watch, nullptr), all_off) == "");
+  }
+}
+
+}  // namespace halfspace::testing
