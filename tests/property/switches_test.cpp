@@ -9,7 +9,7 @@ namespace halfspace::testing {
 namespace {
 
 /// A frame counts as so many samples.
-constexpr std::uint64_t kFrameSamples = 2000;
+constexpr std::uint64_t kSwitchFrameSamples = 2000;
 
 constexpr const char* kSwitches[] = {
     "block_walker.trivial_reject", "block_walker.sample_reject", "hi_z.enabled",       "hi_z.accept",
@@ -63,7 +63,7 @@ std::string picture_difference(const FrameResult& ours, const FrameResult& other
 TEST_CASE("switches: whatever is skipped, the picture is the same", "[property]") {
   Random random(seed());
   const Watch watch{.keep_visible = true};
-  for (std::uint64_t left = samples(1'000'000) / kFrameSamples; left > 0; --left) {
+  for (std::uint64_t left = samples(1'000'000) / kSwitchFrameSamples; left > 0; --left) {
     const Config base = random_config(random);
     const Frame frame = any_frame(random);
     const Config config = with_switches(random, base, false);
