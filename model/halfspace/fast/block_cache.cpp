@@ -36,7 +36,8 @@ BlockCache::BlockCache(const ZCacheShape& shape, int block_shift, std::vector<Bl
   std::fill_n(tag.get(), size, kFree);
   slot = unset_array<std::uint32_t>(size);
   number_slots(shape, block_shift);
-  cleared.assign((surfaces.back().first * groups) * static_cast<std::size_t>(parts), 0);
+  words = surfaces.back().first * groups * static_cast<std::size_t>(parts);
+  cleared = zeroed_array<std::uint16_t>(words);
 }
 
 void BlockCache::number_slots(const ZCacheShape& shape, int block_shift) {
@@ -85,8 +86,8 @@ void BlockCache::clear(const BlockSurface& surface) {
       kept += of_way;
     }
   }
-  const std::size_t words = groups * static_cast<std::size_t>(parts);
-  std::fill_n(cleared.begin() + static_cast<std::ptrdiff_t>(surface.first * words), surface.blocks * words,
+  const std::size_t of_block_words = groups * static_cast<std::size_t>(parts);
+  std::fill_n(cleared.get() + surface.first * of_block_words, surface.blocks * of_block_words,
               std::uint16_t{0xFFFF});
 }
 

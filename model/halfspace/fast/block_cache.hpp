@@ -72,7 +72,7 @@ struct BlockCache {
 
   /// Lines of memory that all surfaces take.
   [[nodiscard]] std::uint32_t memory_lines() const {
-    return static_cast<std::uint32_t>(cleared.size()) * kLanes;
+    return static_cast<std::uint32_t>(words * kLanes);
   }
   /// A line that is not there, before it has been counted. `word`: in `cleared`; `victim`: tag of the line
   /// that leaves.
@@ -124,7 +124,8 @@ struct BlockCache {
   std::vector<BlockSurface> surfaces;
   LazyArray<std::int32_t> tag;
   LazyArray<std::uint32_t> slot;       ///< where in the cache the line lies, and whether it is dirty
-  std::vector<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
+  std::size_t words = 0;             ///< in `cleared`
+  LazyArray<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
 
  private:
   /// As the units (units/z_lookup.hpp).

@@ -47,6 +47,10 @@ template <int TileSize>
 void put_surface_counts(const SurfaceTiles& tiles, Surface& surface) {
   const int side = 1 << tiles.block_shift;
   for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
+    block = tiles.next_used(tiles.counted.get(), block);
+    if (block == tiles.blocks) {
+      break;
+    }
     if (!tiles.is_counted(block)) {
       continue;
     }

@@ -118,6 +118,10 @@ template <int TileSize>
 void resolve_tiles(int sub_pixel_bits, Columns columns, Surface& surface, SurfaceTiles& tiles) {
   const int side = 1 << tiles.block_shift;
   for (std::uint32_t block = 0; block < tiles.blocks; ++block) {
+    block = std::min(tiles.next_used(tiles.opened.get(), block), tiles.next_used(tiles.bounded.get(), block));
+    if (block == tiles.blocks) {
+      break;
+    }
     const SurfaceTiles::Tile first = tiles.first_tile(block);
     const bool is_cleared = !tiles.is_open(block) && !tiles.is_bounded(block);
     if (is_cleared || !columns.has(static_cast<std::uint32_t>(first.x / side))) {

@@ -8,8 +8,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "halfspace/fast/block_cache.hpp"
@@ -35,6 +37,18 @@ struct SurfaceTiles {
   /// `block_tiles`: tiles on a side of a block. Every tile has `code` in every sample.
   SurfaceTiles(const TiledImage<std::uint32_t>& codes, int block_tiles, std::uint32_t code,
                std::uint32_t threads);
+
+  /// The next block from `number` on that may have been used since its memory was new, by these flags: what
+  /// nobody drew on is passed over a line of the processor's cache at a time.
+  [[nodiscard]] std::uint32_t next_used(const std::uint8_t* flags, std::uint32_t number) const {
+    constexpr std::uint32_t kLine = 64;
+    static constexpr std::array<std::uint8_t, kLine> kUnused{};
+    while (number % kLine == 0 && number + kLine <= blocks &&
+           std::memcmp(flags + number, kUnused.data(), kLine) == 0) {
+      number += kLine;
+    }
+    return number;
+  }
 
   /// Before something looks at the tiles of a block.
   void open(std::uint32_t number) {
