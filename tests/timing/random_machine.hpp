@@ -101,8 +101,8 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.late_z = recorded.late_z;
     config.z_cache.fast_clear = recorded.z_cache.fast_clear;
     config.z_cache.compression = recorded.z_cache.compression;
-    if (config.z_cache.compression) {
-      config.z_cache.parts = recorded.z_cache.parts;  // whose sizes the record has
+    if (config.z_cache.compression || config.hi_z.enabled) {
+      config.z_cache.parts = recorded.z_cache.parts;  // of lines that are coded, and of bounds
     }
     try {
       validate(config);

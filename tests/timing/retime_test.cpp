@@ -125,13 +125,16 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"raster.sub_pixel_bits", "7"},
                                                          {"block_walker.block_size", "16"},
                                                          {"block_walker.trivial_reject", "false"},
+                                                         {"block_walker.sample_reject", "true"},
                                                          {"tile_walker.trivial_accept", "false"},
                                                          {"hi_z.enabled", "true"},
+                                                         {"hi_z.accept", "false"},
                                                          {"hi_z.bits", "9"},
                                                          {"hi_z.lag", "77"},
                                                          {"depth.interpolator", "barycentric"},
                                                          {"late_z", "no_write"},
-                                                         {"z_cache.fast_clear", "false"}};
+                                                         {"z_cache.fast_clear", "false"},
+                                                         {"z_cache.compression", "true"}};
   for (const auto& [key, value] : changes) {
     Config config;
     set_config(config, key, value);
@@ -139,6 +142,22 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                   Catch::Contains("a new record"));
     CHECK_THROWS_AS(retimer.retime(std::vector<Config>{Config{}, config}), InputError);
     CHECK_THROWS_AS(retimer.estimate(std::vector<Config>{config}), InputError);
+  }
+}
+
+TEST_CASE("parts of a tile belong to a record with hi_z or coded lines", "[timing]") {
+  Random random(seed());
+  const Frame frame = random_frame(random);
+  for (const char* key : {"hi_z.enabled", "z_cache.compression"}) {
+    Config recorded;
+    set_config(recorded, key, "true");
+    Retimer retimer(record_frame(frame, recorded));
+    Config config = recorded;
+    config.z_cache.ways = 2;
+    CHECK_NOTHROW(retimer.retime(config));
+    config.z_cache.parts = 2;
+    CHECK_THROWS_WITH(retimer.retime(config),
+                      Catch::Contains("'z_cache.parts' is 2") && Catch::Contains("a new record"));
   }
 }
 

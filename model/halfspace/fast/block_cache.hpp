@@ -71,9 +71,7 @@ struct BlockCache {
   }
 
   /// Lines of memory that all surfaces take.
-  [[nodiscard]] std::uint32_t memory_lines() const {
-    return static_cast<std::uint32_t>(words * kLanes);
-  }
+  [[nodiscard]] std::uint32_t memory_lines() const { return static_cast<std::uint32_t>(words * kLanes); }
   /// A line that is not there, before it has been counted. `word`: in `cleared`; `victim`: tag of the line
   /// that leaves.
   [[nodiscard]] ZMiss miss(const CachePlace& at, std::size_t word, int lane, std::int32_t victim,
@@ -123,7 +121,7 @@ struct BlockCache {
   std::size_t size = 0;
   std::vector<BlockSurface> surfaces;
   LazyArray<std::int32_t> tag;
-  LazyArray<std::uint32_t> slot;       ///< where in the cache the line lies, and whether it is dirty
+  LazyArray<std::uint32_t> slot;     ///< where in the cache the line lies, and whether it is dirty
   std::size_t words = 0;             ///< in `cleared`
   LazyArray<std::uint16_t> cleared;  ///< by block, group and part: tiles whose line is only marked cleared
 

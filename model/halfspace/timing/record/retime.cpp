@@ -16,12 +16,13 @@ namespace halfspace {
 
 void check_retimable(const FrameRecord& record, const Config& config) {
   if (same_packets(record.config, config)) {
-    const int parts = record.config.z_cache.parts;
-    if (record.config.z_cache.compression && config.z_cache.parts != parts) {
-      throw InputError(fmt::format(
-          "configuration key 'z_cache.parts' is {}, the record of {} has the sizes of coded lines "
-          "for {}; legal: {}, or a new record",
-          config.z_cache.parts, record.name, parts, parts));
+    const Config& recorded = record.config;
+    const int parts = recorded.z_cache.parts;
+    if (config.z_cache.parts != parts && (recorded.hi_z.enabled || recorded.z_cache.compression)) {
+      throw InputError(
+          fmt::format("configuration key 'z_cache.parts' is {}, the record of {} was made with {}: with hi_z "
+                      "or coded lines it changes more than cycles; legal: {}, or a new record",
+                      config.z_cache.parts, record.name, parts, parts));
     }
     return;
   }
