@@ -53,7 +53,8 @@ module hi_z
   input  logic                 update_valid_i,
   input  hi_z_update_t         update_i,
 
-  // Everything else in the machine is idle, and a clear waits: all jobs are applied before.
+  // Everything else in the machine is idle, and a clear waits: all jobs are applied before, when no block is under way
+  // here.
   input  logic                 drain_i,
   // The surface of these blocks is cleared. In an idle cycle.
   input  logic                 clear_i,
@@ -236,6 +237,9 @@ module hi_z
   typedef logic signed [CountBits-1:0] count_t;
   typedef logic [LeftBits-1:0] left_t;
 
+  typedef logic signed [$clog2(FifoDepth+1):0] slots_t;
+
+  slots_t      blocks_q;           // in the unit
   count_t      due_q, due;
   left_t [2:0] waiting_q, waiting_d;
   left_t       left_count;         // of the block in cycle 3
@@ -244,7 +248,7 @@ module hi_z
 
   assign due       = due_q + (valid_q[1] ? count_t'({1'b0, waiting_q[0]}) : '0);
   assign job_ready = kind_valid & (~kind_burst | update_valid);
-  assign apply     = job_ready & (due > count_t'(0) | drain_i);
+  assign apply     = job_ready & (due > count_t'(0) | (drain_i & blocks_q == '0));
   assign seen      = due <= count_t'(0) || (due == count_t'(1) && job_ready);
 
   assign block_ready_o = credit & seen;
@@ -557,8 +561,6 @@ module hi_z
   // A block is taken when there is a slot for it and for the three before it, of which it is not known yet whether they
   // leave. Of those before, as many hold one as have left and not been popped: fewer than none where one of the three
   // has been popped already.
-  typedef logic signed [$clog2(FifoDepth+1):0] slots_t;
-
   slots_t held_q, held;
   logic   pop;
 
@@ -575,7 +577,6 @@ module hi_z
   end
 
   // Blocks in the unit: a block that is rejected is in it up to its cycle 4.
-  slots_t blocks_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin

@@ -30,7 +30,7 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
   // What is applied in this cycle.
   const std::uint64_t target = std::max(
       seen_, jobs_before_.front() - std::min(jobs_before_.front(), static_cast<std::uint64_t>(shape_.lag)));
-  const bool may = in.drain ? applied_ < jobs_.size() : applied_ < target;
+  const bool may = in.drain && blocks_in_ == 0 ? applied_ < jobs_.size() : applied_ < target;
   const bool applies = may && applied_ < ready_at_.size() && ready_at_[applied_] <= cycle;
   if (applies) {
     apply(cycle);

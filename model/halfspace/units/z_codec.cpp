@@ -77,7 +77,7 @@ struct Plane {
 
 Plane plane_of(std::span<const std::uint32_t> codes, const ZCodecShape& shape) {
   const auto half_x = static_cast<std::size_t>(shape.width / 2);
-  const auto half_y = static_cast<std::size_t>(shape.height / 2 * shape.width);
+  const auto half_y = static_cast<std::size_t>(shape.height / 2) * static_cast<std::size_t>(shape.width);
   return {.dx = (codes[half_x] - codes[0]) & code_mask(shape),
           .dy = (codes[half_y] - codes[0]) & code_mask(shape)};
 }

@@ -286,10 +286,11 @@ class RecurrenceCore {
     }
     // What the next block must see is applied at once, the rest when nothing else is left to do.
     see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
-    const T from = near(at);
+    const T idle_from = near(at);
+    const T from = later(idle_from, hi_z_out_);
     see(jobs_, from);
     left_before_.fill({.jobs = jobs_, .blocks = passed_});
-    return clock_.setup(later(later(from, update_next_), hi_z_out_));
+    return clock_.setup(later(from, update_next_));
   }
 
   /// So many blocks without a tile; gives the cycle after them. Each step waits for the credit of the next
