@@ -71,7 +71,9 @@ class Build:
         made = folder / model.prefix
         place = [(f"{RTL}/", f"{folder}/rtl/"), (str(self.folder / model.prefix), str(made))]
         # Warnings would find many mutants (a width that does not fit); here the bench is on trial.
-        error = self.run(model.verilate.replace(" -Wall ", " -Wno-lint -Wno-style "), place)
+        quiet = model.verilate.replace(" -Wall ", " -Wno-lint -Wno-style ")
+        # Nobody looks at its waveform; the code for one is a third of what the compiler has to do.
+        error = self.run(quiet.replace(" --trace-fst ", " --trace-fst --trace-depth 1 "), place)
         if error:
             kind = re.search(r"%(?:Warning|Error)-(\w+)", error)
             raise Stillborn(f"verilator: {kind.group(1) if kind else 'error'}")

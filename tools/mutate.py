@@ -61,8 +61,8 @@ GROUPS = {
     ),
     "hi_z": Group(
         "hi_z",
-        ["lag8", "parts", "lag1"],
-        ["--blocks", "60000"],
+        ["lag8", "lag1", "parts"],
+        ["--blocks", "20000"],
         ["hi_z", "hi_z_memory", "hi_z_word", "hi_z_test", "hi_z_plane", "hi_z_flights", "hi_z_states"],
     ),
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),

@@ -9,6 +9,7 @@
 #include "early_z/triangles.hpp"
 #include "halfspace/units/block_walker.hpp"
 #include "halfspace/units/edge_evaluator.hpp"
+#include "halfspace/units/hi_z_plane.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_mask.hpp"
@@ -195,6 +196,9 @@ class HiZMaker {
     command.state = state;
     command.moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
     command.clear_code = surface.clear_code;
+    if (style_ == HiZStyle::kMadeUp && state.test && block.z_known != 0 && random_.below(2) == 0) {
+      move_plane(triangle.depth, surface, block);
+    }
     command.plane = block.z_known != 0;
     command.words.resize(words_for(packed_bits<BlockJob>(shape_.widths)));
     pack(block, shape_.widths, command.words);
@@ -227,6 +231,25 @@ class HiZMaker {
       job.words.resize(words_for(packed_bits<HiZUpdatePacket>(shape_.widths)));
       pack(packet, shape_.widths, job.words);
     }
+  }
+
+  /// Moves the plane so that in the first tile its least or its most word is the first of a code that may be
+  /// stored, or the one before. No plane of a triangle comes that near by chance.
+  void move_plane(const DepthEquation& equation, const HiZTarget& surface, BlockJob& block) {
+    const std::uint64_t near = (random_.below(2) == 0 ? surface.clear_code : middle_) + random_.below(2);
+    const std::uint64_t code = std::clamp<std::uint64_t>(near, 1, largest_code(surface.format));
+    const bool scaled = surface.format == DepthFormat::kFloat32 || equation.beyond;
+    const std::int64_t word =
+        word_of_code(static_cast<std::uint32_t>(code), surface.format, scaled ? equation.exponent : 0);
+    const bool least = random_.below(2) == 0;
+    const auto corner = [&](std::int64_t step) { return (step < 0) == least ? step : 0; };
+    const int size = shape_.widths.TileSize;
+    const int row = shape_.widths.BlockSize / size;
+    const int tile = std::countr_zero(block.tiles);
+    const std::int64_t way = block.z_dx * (tile % row * size) + block.z_dy * (tile / row * size) +
+                             (corner(block.z_dx) + corner(block.z_dy)) * (size - 1);
+    const std::int64_t target = (word + (least ? kHiZMargin : -kHiZMargin - 1)) << kHiZFraction;
+    block.z = hi_z_wrap(target + static_cast<std::int64_t>(random_.below(3)) - 1 - way);
   }
 
   /// Whether a job has a burst, and the bounds behind it.

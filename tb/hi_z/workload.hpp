@@ -54,7 +54,9 @@ struct HiZWorkload {
 enum class HiZStyle : std::uint8_t {
   kDrawn,     ///< draws of all kinds, and what they leave in three surfaces
   kOneBlock,  ///< the same in one block or two of each
-  kMadeUp,  ///< bounds that no draw has left: ranges that grow, shrink and move, at the ends of the codes too
+  /// Bounds that no draw has left: ranges that grow, shrink and move, at the ends of the codes too; and
+  /// planes that are a fraction of a word away from where the verdict changes.
+  kMadeUp,
 };
 
 /// So many blocks, with clears and ends of frames between them.
