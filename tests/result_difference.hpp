@@ -37,6 +37,24 @@ inline std::string counter_difference(const std::string& what, const Counters& o
   return text;
 }
 
+/// Of what nothing that a machine skips may change: the depth, what passed and is seen, what was written.
+inline std::string picture_difference(const FrameResult& ours, const FrameResult& other) {
+  std::string text = difference("surfaces", ours.surfaces.size(), other.surfaces.size()) +
+                     difference("draws", ours.draws.size(), other.draws.size());
+  for (std::size_t i = 0; text.empty() && i < ours.surfaces.size(); ++i) {
+    const std::string name = "surface " + std::to_string(i) + " ";
+    text += image_difference(name + "codes", ours.surfaces[i].codes, other.surfaces[i].codes);
+    text += image_difference(name + "survivors", ours.surfaces[i].survivors, other.surfaces[i].survivors);
+    text += image_difference(name + "visible", ours.surfaces[i].visible, other.surfaces[i].visible);
+  }
+  for (std::size_t i = 0; text.empty() && i < ours.draws.size(); ++i) {
+    const EarlyZCounters& a = ours.draws[i].counters.early_z;
+    const EarlyZCounters& b = other.draws[i].counters.early_z;
+    text += difference("survivors", a.survivors, b.survivors) + difference("written", a.written, b.written);
+  }
+  return text;
+}
+
 inline std::string result_difference(const FrameResult& ours, const FrameResult& other) {
   std::string text = difference("surfaces", ours.surfaces.size(), other.surfaces.size()) +
                      difference("draws", ours.draws.size(), other.draws.size()) +

@@ -33,19 +33,11 @@ std::string lost_by_hi_z(const Frame& frame, Config config) {
   const FrameResult with = run_in_order(frame, config, watch, nullptr);
   config.hi_z.enabled = false;
   const FrameResult without = run_in_order(frame, config, watch, nullptr);
-  std::string text;
-  for (std::size_t i = 0; text.empty() && i < with.surfaces.size(); ++i) {
-    const std::string name = "surface " + std::to_string(i) + " ";
-    text += image_difference(name + "codes", with.surfaces[i].codes, without.surfaces[i].codes);
-    text += image_difference(name + "survivors", with.surfaces[i].survivors, without.surfaces[i].survivors);
-    text += image_difference(name + "visible", with.surfaces[i].visible, without.surfaces[i].visible);
-  }
+  std::string text = picture_difference(with, without);
   for (std::size_t i = 0; text.empty() && i < with.draws.size(); ++i) {
     const Counters& ours = with.draws[i].counters;
     const Counters& other = without.draws[i].counters;
-    text += difference("survivors", ours.early_z.survivors, other.early_z.survivors) +
-            difference("written", ours.early_z.written, other.early_z.written) +
-            difference("blocks", ours.block_walker.blocks, other.block_walker.blocks) +
+    text += difference("blocks", ours.block_walker.blocks, other.block_walker.blocks) +
             difference(
                 "tiles",
                 ours.hi_z.tiles_rejected + ours.tile_walker.tiles_accepted + ours.tile_walker.tiles_partial,

@@ -42,22 +42,6 @@ Config with_switches(Random& random, Config config, bool off) {
   return config;
 }
 
-std::string picture_difference(const FrameResult& ours, const FrameResult& other) {
-  std::string text;
-  for (std::size_t i = 0; i < ours.surfaces.size(); ++i) {
-    const std::string name = "surface " + std::to_string(i) + " ";
-    text += image_difference(name + "codes", ours.surfaces[i].codes, other.surfaces[i].codes);
-    text += image_difference(name + "survivors", ours.surfaces[i].survivors, other.surfaces[i].survivors);
-    text += image_difference(name + "visible", ours.surfaces[i].visible, other.surfaces[i].visible);
-  }
-  for (std::size_t i = 0; i < ours.draws.size(); ++i) {
-    const EarlyZCounters& a = ours.draws[i].counters.early_z;
-    const EarlyZCounters& b = other.draws[i].counters.early_z;
-    text += difference("survivors", a.survivors, b.survivors) + difference("written", a.written, b.written);
-  }
-  return text;
-}
-
 }  // namespace
 
 TEST_CASE("switches: whatever is skipped, the picture is the same", "[property]") {

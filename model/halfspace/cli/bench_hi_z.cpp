@@ -33,22 +33,27 @@ void bench_hi_z(const HiZOptions& options) {
       choices.push_back({.bits = bits, .lag = lag});
     }
   }
-  std::string head = "| frame | bursts that test | die | oracle kills | knowing the plane |";
-  std::string rule = "|---|---:|---:|---:|---:|";
-  for (const whatif::HiZChoice& choice : choices) {
-    head += fmt::format(" {} bits, lag {} |", choice.bits, choice.lag);
+  std::string head = "| frame | bursts that test | die | first oracle | second oracle | bits |";
+  std::string rule = "|---|---:|---:|---:|---:|---:|";
+  for (const int lag : options.lags) {
+    head += fmt::format(" lag {} |", lag);
     rule += "---:|";
   }
-  fmt::print("shares: of all bursts; of those that die; then of the oracle's kills\n\n{}\n{}\n", head, rule);
+  fmt::print(
+      "die: of all bursts; oracles: of those that die; by lag: of those that the second oracle kills\n\n");
+  fmt::print("{}\n{}\n", head, rule);
   for (const std::string& input : options.inputs) {
     const Frame frame = load(input);
     const whatif::HiZKills kills = whatif::count_hi_z_kills(frame, config, choices);
-    fmt::print("| {} | {} | {} | {} | {} |", frame.name, kills.bursts, share(kills.dead, kills.bursts),
-               share(kills.oracle_samples, kills.dead), share(kills.oracle_plane, kills.oracle_samples));
-    for (const std::uint64_t stopped : kills.choices) {
-      fmt::print(" {} |", share(stopped, kills.oracle_samples));
+    for (std::size_t i = 0; i < options.bits.size(); ++i) {
+      fmt::print("| {} | {} | {} | {} | {} | {} |", frame.name, kills.bursts, share(kills.dead, kills.bursts),
+                 share(kills.oracle_samples, kills.dead), share(kills.oracle_plane, kills.dead),
+                 options.bits[i]);
+      for (std::size_t k = 0; k < options.lags.size(); ++k) {
+        fmt::print(" {} |", share(kills.choices[i * options.lags.size() + k], kills.oracle_plane));
+      }
+      fmt::print("\n");
     }
-    fmt::print("\n");
   }
 }
 
