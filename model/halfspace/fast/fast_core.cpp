@@ -111,8 +111,8 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
     return "tile_walker.tile_size = 16";
   }
   const PacketObserver* const observer = watch.observer;
-  const bool shows = observer != nullptr &&
-                     (observer->wants_quads() || observer->wants_decisions() || observer->wants_tile_jobs());
+  const bool shows = observer != nullptr && (observer->wants_quads() || observer->wants_decisions() ||
+                                             observer->wants_tile_jobs() || observer->wants_walk());
   return shows ? "a run whose packets are recorded or whose quads are merged" : "";
 }
 

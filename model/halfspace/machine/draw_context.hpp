@@ -29,6 +29,7 @@ struct DrawContext {
   bool record_quads = false;
   bool record_decisions = false;
   bool record_jobs = false;
+  bool record_walk = false;
   Counters counters;
 
   [[nodiscard]] bool is_clear() const { return draw == kNoDraw; }

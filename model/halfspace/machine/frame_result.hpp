@@ -25,7 +25,8 @@ struct Surface {
   /// where no draw writes depth, the one that passed last. Kept on request.
   TiledImage<std::uint32_t> visible;
   PacketSums sums;    ///< on request
-  Counters counters;  ///< of all draws on the surface
+  Counters counters;      ///< of all draws on the surface
+  Counters drawn_clears;  ///< of its clears that went through the pipe as rectangles
 };
 
 /// One draw of the frame.
@@ -40,7 +41,7 @@ struct FrameResult {
   std::vector<Surface> surfaces;  ///< by depth surface number
   std::vector<DrawStats> draws;
   Counters counters;                ///< of the whole frame, targets without depth included
-  Counters drawn_clears;            ///< of the clears that went through the pipe as rectangles
+  Counters drawn_clears;            ///< of all surfaces
   std::uint64_t clears = 0;         ///< clears of depth
   std::uint64_t flushed_lines = 0;  ///< of the z cache, written back at the end
   std::uint64_t flushed_bytes = 0;

@@ -100,6 +100,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
     draw.record_quads = observer_->wants_quads();
     draw.record_decisions = observer_->wants_decisions();
     draw.record_jobs = observer_->wants_tile_jobs();
+    draw.record_walk = observer_->wants_walk();
     tell_done_ = true;
   }
   draw_ = &draw;
@@ -152,6 +153,7 @@ void collect_draws(const std::deque<DrawContext>& draws, FrameResult& result) {
   for (const DrawContext& draw : draws) {
     if (draw.is_clear()) {
       result.drawn_clears += draw.counters;
+      result.surfaces[draw.surface].drawn_clears += draw.counters;
       continue;
     }
     result.draws.push_back({.command = draw.command, .surface = draw.surface, .counters = draw.counters});

@@ -17,6 +17,7 @@ class ObserverPair final : public PacketObserver {
   [[nodiscard]] bool wants_tile_jobs() const override {
     return first_.wants_tile_jobs() || second_.wants_tile_jobs();
   }
+  [[nodiscard]] bool wants_walk() const override { return first_.wants_walk() || second_.wants_walk(); }
   void quad(const QuadEvent& quad) override {
     show(&PacketObserver::wants_quads, [&](PacketObserver& observer) { observer.quad(quad); });
   }
@@ -25,6 +26,16 @@ class ObserverPair final : public PacketObserver {
   }
   void tile_job(const TileJob& job) override {
     show(&PacketObserver::wants_tile_jobs, [&](PacketObserver& observer) { observer.tile_job(job); });
+  }
+  void set_up(const SetupEvent& event) override {
+    show(&PacketObserver::wants_walk, [&](PacketObserver& observer) { observer.set_up(event); });
+  }
+  void block_walked(const BlockJob& job, std::uint64_t touched) override {
+    show(&PacketObserver::wants_walk, [&](PacketObserver& observer) { observer.block_walked(job, touched); });
+  }
+  void hi_z_decided(const BlockJob& block, std::uint64_t rejected) override {
+    show(&PacketObserver::wants_walk,
+         [&](PacketObserver& observer) { observer.hi_z_decided(block, rejected); });
   }
   void draw_done(std::size_t done, std::size_t of) override {
     first_.draw_done(done, of);

@@ -8,6 +8,7 @@
 #include "halfspace/machine/core.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/packets.hpp"
+#include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
 
 namespace halfspace {
@@ -36,6 +37,15 @@ struct DecisionEvent {
   TileVerdict verdict = TileVerdict::kReject;
 };
 
+/// A triangle of the front end, as setup leaves it.
+struct SetupEvent {
+  std::uint32_t draw = 0;
+  std::uint32_t triangle = 0;
+  std::uint32_t surface = kNoSurface;
+  SetupVerdict verdict = SetupVerdict::kDrawn;
+  const SetupTriangle* drawn = nullptr;  ///< where it is drawn; only during the call
+};
+
 /// Sees the packets of a stage in order; quads may come later than the decisions and jobs that led to them.
 /// Override what is of interest and say so.
 class PacketObserver {
@@ -44,9 +54,15 @@ class PacketObserver {
   [[nodiscard]] virtual bool wants_quads() const { return false; }
   [[nodiscard]] virtual bool wants_decisions() const { return false; }
   [[nodiscard]] virtual bool wants_tile_jobs() const { return false; }
+  [[nodiscard]] virtual bool wants_walk() const { return false; }
   virtual void quad(const QuadEvent&) {}
   virtual void decision(const DecisionEvent&) {}
   virtual void tile_job(const TileJob&) {}
+  /// The walk: every triangle at setup; of those that are drawn every block of the bounds, with the tiles
+  /// that they touch, of which job.tiles are left; and what hi_z then rejects of these.
+  virtual void set_up(const SetupEvent&) {}
+  virtual void block_walked(const BlockJob& /*job*/, std::uint64_t /*touched*/) {}
+  virtual void hi_z_decided(const BlockJob& /*block*/, std::uint64_t /*rejected*/) {}
   virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };
 

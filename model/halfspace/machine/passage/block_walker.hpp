@@ -54,6 +54,9 @@ class BlockWalker {
       if (draw.sums != nullptr || draw.record_decisions) {
         show_decisions(job, touched);
       }
+      if (draw.record_walk) {
+        draw.observer->block_walked(job, touched);
+      }
       if (job.tiles == 0) {
         ++counters.blocks_empty;
         ++empty;

@@ -1,4 +1,4 @@
-/// A block job's passage through hi_z: the unit and its counters.
+/// A block job's passage through hi_z: the unit, its counters and events.
 #pragma once
 
 #include <bit>
@@ -18,6 +18,9 @@ inline void hi_z(HiZ& unit, BlockJob& block, const DepthEquation& equation, cons
   counters.tiles_rejected += static_cast<std::uint64_t>(std::popcount(verdict.rejected));
   counters.blocks_rejected += verdict.rejected == block.tiles ? 1 : 0;
   counters.tiles_sure += static_cast<std::uint64_t>(std::popcount(verdict.sure));
+  if (draw.record_walk) {
+    draw.observer->hi_z_decided(block, verdict.rejected);
+  }
   block.tiles &= ~verdict.rejected;
   block.sure = verdict.sure;
 }

@@ -1,4 +1,4 @@
-/// A triangle's passage through setup: the unit and its counters.
+/// A triangle's passage through setup: the unit, its counters and events.
 #pragma once
 
 #include "halfspace/machine/draw_context.hpp"
@@ -28,7 +28,15 @@ inline bool setup(const ScreenTriangle& in, DrawContext& draw, SetupTriangle& ou
       ++counters.outside;
       break;
   }
-  return verdict == SetupVerdict::kDrawn;
+  const bool drawn = verdict == SetupVerdict::kDrawn;
+  if (draw.record_walk) {
+    draw.observer->set_up({.draw = draw.draw,
+                           .triangle = in.triangle,
+                           .surface = draw.surface,
+                           .verdict = verdict,
+                           .drawn = drawn ? &out : nullptr});
+  }
+  return drawn;
 }
 
 }  // namespace halfspace::passage
