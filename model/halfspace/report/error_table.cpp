@@ -3,14 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-
-#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -420,15 +415,6 @@ Json to_json(const ErrorTable& table, const std::vector<std::string>& files) {
   return json;
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) {
-    throw InputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-  }
-}
-
 }  // namespace
 
 double CycleError::percent() const {
@@ -532,10 +518,11 @@ std::string error_csv(const ErrorTable& table) {
 }
 
 void write_error_files(OutputFolder& folder, const ErrorTable& table) {
-  write_text(folder.file("error.md"), error_markdown(table));
-  write_text(folder.file("error.csv"), error_csv(table));
-  const std::filesystem::path json = folder.file(kErrorFile);
-  write_text(json, to_json(table, folder.files()).dump(1) + '\n');
+  folder.write("error.md", error_markdown(table));
+  folder.write("error.csv", error_csv(table));
+  std::vector<std::string> files = folder.files();
+  files.emplace_back(kErrorFile);
+  folder.write(kErrorFile, to_json(table, files).dump(1) + '\n');
 }
 
 }  // namespace halfspace

@@ -14,6 +14,7 @@
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/error_table.hpp"
+#include "halfspace/report/ledger_files.hpp"
 #include "halfspace/report/stats.hpp"
 
 namespace halfspace {
@@ -37,9 +38,10 @@ bool is_result(const fs::path& folder, const char* index, const char* schema) {
   return true;
 }
 
-/// Of a run or of a bench.
+/// Of a run, a bench or a ledger.
 bool is_result(const fs::path& folder) {
-  return is_result(folder, kStatsFile, kStatsSchema) || is_result(folder, kErrorFile, kErrorSchema);
+  return is_result(folder, kStatsFile, kStatsSchema) || is_result(folder, kErrorFile, kErrorSchema) ||
+         is_result(folder, kLedgerFile, kLedgerSchema);
 }
 
 }  // namespace
@@ -75,6 +77,16 @@ OutputFolder::~OutputFolder() {
 fs::path OutputFolder::file(const std::string& name) {
   files_.push_back(name);
   return staging_ / name;
+}
+
+void OutputFolder::write(const std::string& name, const std::string& text) {
+  const fs::path path = file(name);
+  std::ofstream stream(path);
+  stream << text;
+  stream.close();
+  if (!stream) {
+    throw InputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  }
 }
 
 void OutputFolder::commit() {

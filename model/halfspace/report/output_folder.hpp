@@ -21,6 +21,9 @@ class OutputFolder {
   /// The path to write file `name` to; it becomes part of the result.
   std::filesystem::path file(const std::string& name);
 
+  /// Writes file `name`. Throws InputError.
+  void write(const std::string& name, const std::string& text);
+
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
   /// Puts the result in place. Throws InputError.
