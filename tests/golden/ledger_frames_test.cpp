@@ -1,0 +1,82 @@
+// The ledger of frames of real programs.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "halfspace/core/functional.hpp"
+#include "halfspace/ledger/ledger.hpp"
+#include "halfspace/reference/rasterizer.hpp"
+#include "halfspace/scene/ptf.hpp"
+
+namespace halfspace::testing {
+namespace {
+
+/// Ends the test as skipped where the frame is absent.
+Frame captured_frame(const std::string& name) {
+  const char* variable = std::getenv("HALFSPACE_FRAMES");
+  for (const std::filesystem::path folder :
+       {HALFSPACE_SCENES, variable != nullptr ? variable : HALFSPACE_FRAMES}) {
+    if (std::filesystem::exists(folder / (name + ".ptf.xz"))) {
+      return read_ptf(folder / (name + ".ptf.xz"));
+    }
+  }
+  std::cout << "skipped: " << name
+            << ".ptf.xz does not ship; set HALFSPACE_FRAMES to a folder of captured frames\n";
+  std::cout.flush();
+  std::_Exit(77);  // SKIP_RETURN_CODE of tests/CMakeLists.txt
+}
+
+/// Survivors and all that there was are what a machine without hi_z counts; and what the textbook rasterizer
+/// counts, whose guard band is another and whose depth is rounded elsewhere.
+void check_ledger(const std::string& name) {
+  const Frame frame = captured_frame(name);
+  Config config;
+  config.hi_z.enabled = true;
+  config.z_cache.compression = true;
+  const ledger::Accounts found = ledger::make_ledger(frame, config, run_functional(frame, config)).frame;
+  const FrameResult plain = run_functional(frame, {});
+  const Counters& counters = plain.counters;
+  CHECK(found.fragments.all == counters.quad_generator.fragments);
+  CHECK(found.quads.all == counters.quad_generator.quads);
+  CHECK(found.fragments.survive == counters.early_z.survivors);
+  CHECK(found.tiles.hi_z_block + found.tiles.hi_z_tile + found.tiles.empty + found.tiles.early_z +
+            found.tiles.survive ==
+        counters.tile_walker.tiles_accepted + counters.tile_walker.tiles_partial);
+  // Only hi_z's acceptance and the parts that it rejects change which lines are touched; without both:
+  Config compressed;
+  compressed.z_cache.compression = true;
+  const ledger::Accounts lines =
+      ledger::make_ledger(frame, compressed, run_functional(frame, compressed)).frame;
+  CHECK(lines.read.fetched + lines.read.compressed ==
+        counters.early_z.bytes_read + plain.drawn_clears.early_z.bytes_read);
+  CHECK(lines.written.all ==
+        counters.early_z.bytes_written + plain.drawn_clears.early_z.bytes_written + plain.flushed_bytes);
+  double covered = 0;
+  double quads = 0;
+  for (const reference::Surface& surface : reference::rasterize(frame, {})) {
+    covered += static_cast<double>(surface.counters.covered_fragments);
+    quads += static_cast<double>(surface.counters.quads);
+  }
+  std::uint64_t bare = 0;  // of targets without depth, which the reference leaves out
+  std::uint64_t bare_quads = 0;
+  for (const DrawStats& draw : plain.draws) {
+    bare += draw.surface == kNoSurface ? draw.counters.quad_generator.fragments : 0;
+    bare_quads += draw.surface == kNoSurface ? draw.counters.quad_generator.quads : 0;
+  }
+  const bool exact = name == "vkcube" || name == "glmark2_shadow";
+  CHECK(static_cast<double>(found.fragments.all - bare) == Approx(covered).epsilon(exact ? 0 : 20e-6));
+  CHECK(static_cast<double>(found.quads.all - bare_quads) == Approx(quads).epsilon(exact ? 0 : 1e-3));
+}
+
+}  // namespace
+
+TEST_CASE("ledger frames: vkcube", "[golden]") { check_ledger("vkcube"); }
+TEST_CASE("ledger frames: cc0_truck", "[golden]") { check_ledger("cc0_truck"); }
+TEST_CASE("ledger frames: glmark2_ideas", "[golden]") { check_ledger("glmark2_ideas"); }
+TEST_CASE("ledger frames: glmark2_shadow", "[golden]") { check_ledger("glmark2_shadow"); }
+TEST_CASE("ledger frames: stk_snowmountain", "[golden]") { check_ledger("stk_snowmountain"); }
+TEST_CASE("ledger frames: openarena_gl2", "[golden]") { check_ledger("openarena_gl2"); }
+TEST_CASE("ledger frames: warzone2100_vulkan", "[golden]") { check_ledger("warzone2100_vulkan"); }
+
+}  // namespace halfspace::testing
