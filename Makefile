@@ -131,11 +131,17 @@ clean: ## Remove everything that was built.
 
 # Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
 FIGURES := demo-figure bench-frames bench-roof bench-stages bench-surfaces bench-time bench-sampled \
-           hi-z-kills hi-z-machines quad-merging reference-figure what-if what-if-demo what-if-lod
-.PHONY: docs-figures $(FIGURES)
+           hi-z-kills hi-z-machines quad-merging reference-figure what-if what-if-demo what-if-lod \
+           ledger-demo ledger-frames
+.PHONY: docs-figures ledger-picture $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool
 	tools/write_figures.py --captured $(CAPTURED)
+ledger-picture: build/release/build.ninja ## Draw docs/images/ledger.svg.
+	cmake --build --preset release --target halfspace_cli
+	build/release/bin/halfspace ledger scenes/cc0_truck.ptf.xz --set hi_z.enabled=true \
+	  --set z_cache.compression=true --savings --no-draws --out out/ledger
+	cp out/ledger/ledger.svg docs/images/ledger.svg
 $(FIGURES): build/release/build.ninja
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool
 	tools/write_figures.py $(@:-figure=) --captured $(CAPTURED)

@@ -293,6 +293,58 @@ def what_if_lod(tools):
     return "\n".join(text)
 
 
+LEDGER_OPTIONS = ["--set", "hi_z.enabled=true", "--set", "z_cache.compression=true"]
+
+
+def ledger_demo(tools):
+    """The ledger of the truck, without its draws."""
+    scene = "scenes/cc0_truck.ptf.xz"
+    return f"```text\n{output(tools.program, 'ledger', scene, *LEDGER_OPTIONS, '--no-draws', '--savings')}\n```"
+
+
+def ledger_frames(tools):
+    """Shares of causes in each frame, and what each switch saves."""
+    causes = {
+        "pieces": ["culled", "no_sample", "outside", "uncovered", "hi_z", "hi_z_early_z", "early_z", "survive"],
+        "tiles": ["edges_block", "edges_tile", "hi_z_block", "hi_z_tile", "empty", "early_z", "survive"],
+        "fragments": ["hi_z_block", "hi_z_tile", "early_z", "survive"],
+        "read": ["overwritten", "cleared", "compressed", "fetched"],
+        "written": ["compressed", "evicted", "flushed"],
+    }
+    paths = [*SCENES, *tools.captured]
+    ledgers = [
+        json.loads(output(tools.program, "ledger", path, *LEDGER_OPTIONS, "--json", "--savings")) for path in paths
+    ]
+    names = [frame_name(path) for path in paths]
+    text = [f"    halfspace ledger FRAME {' '.join(LEDGER_OPTIONS)} --savings --json"]
+    if tools.captured:
+        text += ["", "Frames marked *captured* do not ship."]
+    for account, columns in causes.items():
+        unit = f"{account}, bytes" if account in ("read", "written") else account
+        text += ["", f"| {unit} | all | {' | '.join(columns)} |", "|---|" + "---:|" * (len(columns) + 1)]
+        for name, ledger in zip(names, ledgers, strict=True):
+            counts = ledger["frame"][account]
+            shares = [f"{100 * counts[cause] / max(counts['all'], 1):.1f}%" for cause in columns]
+            text.append(f"| {name} | {counts['all']:,} | {' | '.join(shares)} |")
+    switches = list(ledgers[0]["savings"]["without"])
+    text += ["", "Cycles, and bytes read and written, with one switch off, against all on:", ""]
+    text += [f"| savings | all on | {' | '.join(f'`{key}`' for key in switches)} | all off |"]
+    text += ["|---|" + "---:|" * (len(switches) + 2)]
+    for name, ledger in zip(names, ledgers, strict=True):
+        savings = ledger["savings"]
+        runs = [*savings["without"].values(), savings["all_off"]]
+        on = savings["all_on"]
+
+        def total(run):
+            return run["bytes_read"] + run["bytes_written"]
+
+        cells = [f"{100 * (run['cycles'] / on['cycles'] - 1):+.1f}%" for run in runs]
+        text.append(f"| {name} | {on['cycles']:,} cycles | {' | '.join(cells)} |")
+        cells = [f"{100 * (total(run) / total(on) - 1):+.1f}%" for run in runs]
+        text.append(f"| {name} | {total(on):,} bytes | {' | '.join(cells)} |")
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
 FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
@@ -305,6 +357,8 @@ FIGURES = {
     "what-if-demo": ("docs/guides/whatif.md", what_if_demo),
     "what-if-lod": ("docs/guides/whatif.md", what_if_lod),
     "what-if": ("docs/guides/whatif.md", what_if),
+    "ledger-demo": ("docs/guides/ledger.md", ledger_demo),
+    "ledger-frames": ("docs/guides/ledger.md", ledger_frames),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),
