@@ -16,10 +16,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
+/// Squares of a grid that the bounds touch.
 std::uint64_t squares(const PixelRect& bounds, int size) {
-  const auto columns = static_cast<std::uint64_t>(bounds.x_last / size - bounds.x_first / size + 1);
-  const auto rows = static_cast<std::uint64_t>(bounds.y_last / size - bounds.y_first / size + 1);
-  return columns * rows;
+  const std::int64_t columns = bounds.x_last / size - bounds.x_first / size + 1;
+  const std::int64_t rows = bounds.y_last / size - bounds.y_first / size + 1;
+  return static_cast<std::uint64_t>(columns * rows);
 }
 
 /// What the tiles of a block cover.
