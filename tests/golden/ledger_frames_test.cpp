@@ -12,12 +12,14 @@
 namespace halfspace::testing {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Ends the test as skipped where the frame is absent.
 Frame captured_frame(const std::string& name) {
   const char* variable = std::getenv("HALFSPACE_FRAMES");
-  for (const std::filesystem::path folder :
-       {HALFSPACE_SCENES, variable != nullptr ? variable : HALFSPACE_FRAMES}) {
-    if (std::filesystem::exists(folder / (name + ".ptf.xz"))) {
+  for (const fs::path& folder :
+       {fs::path(HALFSPACE_SCENES), fs::path(variable != nullptr ? variable : HALFSPACE_FRAMES)}) {
+    if (fs::exists(folder / (name + ".ptf.xz"))) {
       return read_ptf(folder / (name + ".ptf.xz"));
     }
   }
