@@ -12,7 +12,7 @@ TEST_CASE("ledger: prints what became of everything, and the same in JSON and CS
   REQUIRE(outcome.status == 0);
   for (const char* part : {"vkcube: 1 draws; ", " numbers compared with fidelity functional, all equal\n",
                            "\n  triangles                 12 ", "\n  fragments              74783 ",
-                           "\n    survive               74783  100.0%"}) {
+                           "\n    survive              74783  100.0%"}) {
     CAPTURE(part, outcome.out);
     CHECK(outcome.out.find(part) != std::string::npos);
   }
