@@ -57,12 +57,13 @@ TEST_CASE("ledger: what a switch saves is what two runs say") {
   for (const auto& [key, cost] : savings["without"].items()) {
     keys.insert(key);
   }
-  CHECK(keys == std::set<std::string>{"block_walker.trivial_reject", "hi_z.enabled", "hi_z.accept",
-                                      "tile_walker.trivial_accept", "z_cache.fast_clear",
-                                      "z_cache.compression"});
+  CHECK(keys == std::set<std::string>{"block_walker.trivial_reject", "block_walker.sample_reject",
+                                      "hi_z.enabled", "hi_z.accept", "tile_walker.trivial_accept",
+                                      "z_cache.fast_clear", "z_cache.compression"});
   const std::string out = (place.path / "run").string();
   const auto cost = [&](const std::string& options) {
-    const std::string all_on = " --set hi_z.enabled=true --set z_cache.compression=true ";
+    const std::string all_on =
+        " --set hi_z.enabled=true --set z_cache.compression=true --set block_walker.sample_reject=true ";
     REQUIRE(place
                 .run("run " + scene("vkcube.ptf.xz") + " --fidelity recurrence --no-pictures --out " + out +
                      all_on + options)

@@ -246,10 +246,12 @@ class BruteForce {
       std::vector<Pixel> evaluated;
     };
     std::map<Pixel, Block> blocks;
+    const bool few = config_.block_walker.sample_reject && few_samples(bounds, row);
     for (int y = bounds.y_first / tile; y <= bounds.y_last / tile; ++y) {
       for (int x = bounds.x_first / tile; x <= bounds.x_last / tile; ++x) {
         const bool outside =
-            config_.block_walker.trivial_reject && outside_an_edge(x * tile, y * tile, edges);
+            few ? uncovered(x * tile, y * tile, bounds, edges)
+                : config_.block_walker.trivial_reject && outside_an_edge(x * tile, y * tile, edges);
         Block& block = blocks[{x / row, y / row}];
         (outside ? block.outside : jobs.contains({x, y}) ? block.evaluated : block.hidden).push_back({x, y});
       }
@@ -271,6 +273,30 @@ class BruteForce {
       }
     }
     return fates;
+  }
+
+  /// The bounds lie in one block, and are no wider and higher in pixels than it is in tiles.
+  [[nodiscard]] bool few_samples(const PixelRect& bounds, int row_tiles) const {
+    const int block = config_.block_walker.block_size;
+    return bounds.x_first / block == bounds.x_last / block &&
+           bounds.y_first / block == bounds.y_last / block &&
+           bounds.x_last - bounds.x_first + 1 <= row_tiles && bounds.y_last - bounds.y_first + 1 <= row_tiles;
+  }
+
+  /// No sample of the tile within the bounds is inside all edges.
+  [[nodiscard]] bool uncovered(int left, int top, const PixelRect& bounds,
+                               const std::array<ExactEdge, 3>& edges) const {
+    const int last = config_.tile_walker.tile_size - 1;
+    const PixelRect in =
+        intersect(bounds, {.x_first = left, .y_first = top, .x_last = left + last, .y_last = top + last});
+    for (int y = in.y_first; y <= in.y_last; ++y) {
+      for (int x = in.x_first; x <= in.x_last; ++x) {
+        if (std::ranges::all_of(edges, [&](const ExactEdge& edge) { return edge.inside(x, y); })) {
+          return false;
+        }
+      }
+    }
+    return true;
   }
 
   [[nodiscard]] bool outside_an_edge(int left, int top, const std::array<ExactEdge, 3>& edges) const {

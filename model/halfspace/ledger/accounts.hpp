@@ -31,14 +31,14 @@ namespace halfspace::ledger {
 
 #define HALFSPACE_BLOCK_ACCOUNT(C)                                                           \
   C(all,          "that the bounds of drawn pieces touch")                                   \
-  C(edges,        "each tile is outside an edge")                                            \
+  C(edges,        "block_walker rejects each tile")                                          \
   C(hi_z,         "hi_z rejects every tile that is left")                                    \
   C(live,         "go on to the tile walker")
 
 #define HALFSPACE_TILE_ACCOUNT(C)                                                            \
   C(all,          "that the bounds of drawn pieces touch")                                   \
-  C(edges_block,  "outside an edge, and so are all others of the block")                     \
-  C(edges_tile,   "outside an edge, in a block that has others")                             \
+  C(edges_block,  "block_walker rejects them with all others of the block")                  \
+  C(edges_tile,   "block_walker rejects them, in a block that has others")                   \
   C(hi_z_block,   "hi_z rejects them with all that is left of the block")                    \
   C(hi_z_tile,    "hi_z rejects them, in a block that goes on")                              \
   C(empty,        "evaluated, and no sample is covered")                                     \
