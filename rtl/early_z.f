@@ -23,6 +23,7 @@ z_decoder.sv
 z_fill_buffers.sv
 z_write_buffer.sv
 z_extremes.sv
+z_late_writes.sv
 z_test.sv
 z_control.sv
 early_z.sv

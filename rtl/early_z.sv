@@ -41,6 +41,8 @@ module early_z
   parameter bit HiZ = 1'b0,
   /// 1: lines are coded in memory. 0: read_shift_o and write_shift_o are 0.
   parameter bit Compression = 1'b0,
+  /// Late writes that may be out, 1 or more; 0: no draw writes late, and late_valid_i is 0.
+  parameter int unsigned LateQueue = 0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned FillBits = 8 * (ReadBytes < LineBytes ? ReadBytes : LineBytes),
   localparam int unsigned WriteBits = 8 * (WriteBytes < LineBytes ? WriteBytes : LineBytes)
@@ -63,6 +65,11 @@ module early_z
   output logic                 beat_valid_o,
   input  logic                 beat_ready_i,
   output tested_beat_t         beat_o,
+
+  // What the shader keeps of a burst of a late draw of which a sample passed: by quad of the tile, for each in order, a
+  // cycle or more after its last beat.
+  input  logic                 late_valid_i,
+  input  logic [TileQuads-1:0] [QuadMaskBits-1:0] late_keep_i,
 
   // hi_z: what a burst leaves stored, for each in order, four cycles after the test of its last beat.
   output logic                 update_valid_o,
@@ -125,6 +132,9 @@ module early_z
     logic                  write;
     logic [FuncBits-1:0]   func;
     logic [CodeBits-1:0]   clear_code;
+    logic                  late;
+    logic [CodeBits-1:0]   min_code;
+    logic [CodeBits-1:0]   max_code;
   } test_state_t;
 
   // Of the depth equation what the interpolator takes.
@@ -171,7 +181,10 @@ module early_z
       test:       slot_state_i.test,
       write:      slot_state_i.write,
       func:       slot_state_i.func,
-      clear_code: slot_state_i.clear_code
+      clear_code: slot_state_i.clear_code,
+      late:       slot_state_i.late & (LateQueue != 0),
+      min_code:   slot_equation_i.min_code,
+      max_code:   slot_equation_i.max_code
     }
   };
 
@@ -194,7 +207,7 @@ module early_z
   // Lookup.
   logic                                 first, found, resolved, burst_done, leaving, request;
   burst_t                               burst, found_burst;
-  logic [ZParts-1:0]                    missed, sure, fetched, victim, victim_half, fill_free;
+  logic [ZParts-1:0]                    touched, missed, sure, fetched, victim, victim_half, fill_free;
   logic [ZParts-1:0]                    stored, leaving_part, slot_half;
   logic [ZParts-1:0] [PartLineBits-1:0] line_index;
   logic [ZParts-1:0] [TileBits-1:0]     victim_tile, stored_tile, slot_tile;
@@ -235,6 +248,7 @@ module early_z
     .tiles_x_i      (lookup_state.tiles_x),
     .found_o        (found),
     .found_burst_o  (found_burst),
+    .touched_o      (touched),
     .missed_o       (missed),
     .sure_o         (sure),
     .line_index_o   (line_index),
@@ -435,12 +449,14 @@ module early_z
     .WriteBytes     (WriteBytes),
     .MemoryTiles    (MemoryTiles),
     .HiZ            (HiZ),
-    .Compression    (Compression)
+    .Compression    (Compression),
+    .LateQueue      (LateQueue)
   ) u_test (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
     .found_i          (found),
     .found_burst_i    (found_burst),
+    .touched_i        (touched),
     .missed_i         (missed),
     .sure_i           (sure),
     .line_index_i     (line_index),
@@ -458,10 +474,16 @@ module early_z
     .write_i          (coded_out.state.write),
     .func_i           (coded_out.state.func),
     .clear_code_i     (coded_out.state.clear_code),
+    .late_i           (coded_out.state.late),
+    .min_code_i       (coded_out.state.min_code),
+    .max_code_i       (coded_out.state.max_code),
     .beat_i           (test_beat),
     .beat_valid_o     (beat_valid_o),
     .beat_ready_i     (beat_ready_i),
     .beat_o           (beat_o),
+    .answer_i         (late_valid_i),
+    .keep_i           (late_keep_i),
+    .drain_i          ((clear_valid_i | flush_i) & lookup_idle),
     .update_valid_o   (update_valid_o),
     .update_o         (update_o),
     .burst_done_o     (burst_done),

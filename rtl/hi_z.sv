@@ -101,6 +101,7 @@ module hi_z
     logic                      test;
     logic                      up;       // its jobs may raise what is stored
     logic                      down;
+    logic                      late;     // they write when the shader is through
     func_t                     func;
     logic                      is_float;
     logic                      is_unorm16;
@@ -134,6 +135,7 @@ module hi_z
     test:        slot_state_i.test,
     up:          slot_state_i.test & slot_state_i.write & raises,
     down:        slot_state_i.test & slot_state_i.write & lowers,
+    late:        slot_state_i.late,
     func:        slot_state_i.func,
     is_float:    slot_state_i.format == Float32,
     is_unorm16:  slot_state_i.format == Unorm16,
@@ -347,6 +349,7 @@ module hi_z
     logic                test;
     logic                up;
     logic                down;
+    logic                late;
     func_t               func;
     logic                is_float;
     logic                is_unorm16;
@@ -369,6 +372,7 @@ module hi_z
         test:       triangle.test,
         up:         triangle.up,
         down:       triangle.down,
+        late:       triangle.late,
         func:       triangle.func,
         is_float:   triangle.is_float,
         is_unorm16: triangle.is_unorm16,
@@ -529,7 +533,7 @@ module hi_z
 
   // Only draws that write may raise or lower what is stored.
   assign left = test3_q.test ? job_q[3].tiles & ~rejected : job_q[3].tiles;
-  assign sure = Accept && (test3_q.up || test3_q.down) ? left & accepted : '0;
+  assign sure = Accept && (test3_q.up || test3_q.down) && !test3_q.late ? left & accepted : '0;
 
   always_comb begin
     left_count = '0;

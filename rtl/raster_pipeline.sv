@@ -27,6 +27,9 @@ module raster_pipeline
   parameter int unsigned QuadFifo = 4,
   parameter int unsigned PendingDepth = 32,
   parameter int unsigned EarlyZFifo = 16,
+  /// 2: late draws write late. Else no state has late set, and late_valid_i is 0.
+  parameter int unsigned LateZMode = 0,
+  parameter int unsigned LateQueue = 16,
   parameter int unsigned Interpolator = 0,
   parameter int unsigned InterpolatorLatency = 12,
   parameter int unsigned Lines = 128,
@@ -61,6 +64,8 @@ module raster_pipeline
   output logic                 beat_valid_o,
   input  logic                 beat_ready_i,
   output tested_beat_t         beat_o,
+  input  logic                 late_valid_i,
+  input  logic [TileQuads-1:0] [QuadMaskBits-1:0] late_keep_i,
 
   // Memory: see early_z
   output logic                 read_valid_o,
@@ -295,7 +300,8 @@ module raster_pipeline
     .ClearTiles          (ClearTiles),
     .MemoryTiles         (MemoryTiles),
     .HiZ                 (HiZ),
-    .Compression         (Compression)
+    .Compression         (Compression),
+    .LateQueue           (LateZMode == 2 ? LateQueue : 0)
   ) u_early_z (
     .clk_i             (clk_i),
     .rst_ni            (rst_ni),
@@ -309,6 +315,8 @@ module raster_pipeline
     .beat_valid_o      (beat_valid_o),
     .beat_ready_i      (beat_ready_i),
     .beat_o            (beat_o),
+    .late_valid_i      (late_valid_i),
+    .late_keep_i       (late_keep_i),
     .update_valid_o    (update_valid),
     .update_o          (update),
     .read_valid_o      (read_valid_o),

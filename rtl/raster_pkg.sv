@@ -143,6 +143,7 @@ package raster_pkg;
     logic [CodeBits-1:0] most_code;
     logic [FlagBits-1:0] test;
     logic [FlagBits-1:0] write;
+    logic [FlagBits-1:0] late;
     logic [FuncBits-1:0] func;
     logic [CodeBits-1:0] clear_code;
     logic [LineBits-1:0] first_tile;
@@ -329,9 +330,10 @@ package raster_pkg;
   typedef enum logic [ActivityBits-1:0] {
     ZTestBusy = 0,
     ZTestNoBurst = 1,
-    ZTestFill = 2,
-    ZTestWriteBuffer = 3,
-    ZTestNoCredit = 4
+    ZTestLate = 2,
+    ZTestFill = 3,
+    ZTestWriteBuffer = 4,
+    ZTestNoCredit = 5
   } z_test_activity_e;
 
   // what can happen in a cycle: bits of the probe of the pipeline's bench

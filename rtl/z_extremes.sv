@@ -1,6 +1,8 @@
 // The least and the greatest code that is stored in each part of a tile behind a burst, for hi_z.
 //
 // Four registers: the codes of the tile, and three stages of comparisons. A new tile can come in every cycle.
+//
+// Two more codes count in each part: what a late draw may still write.
 
 module z_extremes
   import raster_pkg::*;
@@ -12,6 +14,8 @@ module z_extremes
   input  logic                                      valid_i,
   input  logic [ZParts-1:0]                         parts_i,
   input  logic [TileQuads-1:0] [3:0] [CodeBits-1:0] codes_i,
+  input  logic [CodeBits-1:0]                       least_i, // all ones: none
+  input  logic [CodeBits-1:0]                       most_i,  // 0: none
 
   // Four cycles later. Parts of which nothing is to be said are 0.
   output logic                                      update_valid_o,
@@ -39,6 +43,17 @@ module z_extremes
 
   always_ff @(posedge clk_i) begin
     parts_q <= {parts_q[3:1], valid_i ? parts_i : '0};
+  end
+
+  logic [3:1] [CodeBits-1:0] least_q, most_q;
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      least_q[1] <= least_i;
+      most_q[1]  <= most_i;
+    end
+    least_q[3:2] <= least_q[2:1];
+    most_q[3:2]  <= most_q[2:1];
   end
 
   assign update_valid_o   = valid_q[4];
@@ -81,13 +96,13 @@ module z_extremes
     );
 
     z_extremes_stage #(
-      .Inputs  (Second),
+      .Inputs  (2 * Second),
       .Outputs (1)
     ) u_third (
       .clk_i   (clk_i),
       .valid_i (parts_q[3][p]),
-      .least_i (least2),
-      .most_i  (most2),
+      .least_i ({{Second{least_q[3]}}, least2}),
+      .most_i  ({{Second{most_q[3]}}, most2}),
       .least_o (least),
       .most_o  (most)
     );

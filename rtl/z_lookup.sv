@@ -51,6 +51,7 @@ module z_lookup
   // What is known of a burst in the cycle after its first beat.
   output logic                                   found_o,
   output logic [PendingBits-1:0]                 found_burst_o,
+  output logic [ZParts-1:0]                      touched_o,
   output logic [ZParts-1:0]                      missed_o,
   output logic [ZParts-1:0]                      sure_o,
   output logic [ZParts-1:0] [PartLineBits-1:0]   line_index_o,
@@ -341,6 +342,7 @@ module z_lookup
   assign found_o       = fresh_q;
   assign found_burst_o = burst_q;
   assign sure_o        = sure_q;
+  assign touched_o     = touches_i ? parts_q : '0;
 
   // From cycle f + 1 on: the missing parts, the lowest first.
   logic [ZParts-1:0] left, left_d, left_q, part;

@@ -30,6 +30,8 @@ module z_test
   parameter bit HiZ = 1'b0,
   /// 1: lines are coded in memory.
   parameter bit Compression = 1'b0,
+  /// Late writes that may be out; 0: no draw writes late.
+  parameter int unsigned LateQueue = 0,
   localparam int unsigned TileBits = $clog2(MemoryTiles),
   localparam int unsigned PartLines = Lines / ZParts,
   localparam int unsigned PartLineBits = PartLines > 1 ? $clog2(PartLines) : 1,
@@ -43,6 +45,7 @@ module z_test
   // What the lookup knows of a burst, long before its first beat comes.
   input  logic                                   found_i,
   input  logic [PendingBits-1:0]                 found_burst_i,
+  input  logic [ZParts-1:0]                      touched_i,
   input  logic [ZParts-1:0]                      missed_i,
   input  logic [ZParts-1:0]                      sure_i,
   input  logic [ZParts-1:0] [PartLineBits-1:0]   line_index_i,
@@ -63,12 +66,21 @@ module z_test
   input  logic                                   write_i,
   input  logic [FuncBits-1:0]                    func_i,
   input  logic [CodeBits-1:0]                    clear_code_i,
+  input  logic                                   late_i,
+  input  logic [CodeBits-1:0]                    min_code_i, // of the triangle, for late draws
+  input  logic [CodeBits-1:0]                    max_code_i,
   // depth of all samples; passed means nothing
   input  tested_beat_t                           beat_i,
 
   output logic                                   beat_valid_o,
   input  logic                                   beat_ready_i,
   output tested_beat_t                           beat_o,
+
+  // The shader is through with a burst of a late draw of which a sample passed: for each in order, what it keeps, by quad.
+  input  logic                                   answer_i,
+  input  logic [TileQuads-1:0] [QuadMaskBits-1:0] keep_i,
+  // Nothing else is left to do, and a clear or a flush waits: late writes that are out are done.
+  input  logic                                   drain_i,
 
   // To hi_z, for each burst in order, four cycles after the test of its last beat: the least and the greatest code in each
   // part of the tile in which it has quads. All is 0 if its draw does not touch depth.
@@ -129,6 +141,7 @@ module z_test
   typedef logic [FifoCountBits-1:0]     fifo_count_t;
 
   typedef struct packed {
+    logic [ZParts-1:0]                     touched;
     logic [ZParts-1:0]                     missed;
     logic [ZParts-1:0]                     sure;
     logic [ZParts-1:0] [PartLineBits-1:0]  line_index;
@@ -154,7 +167,7 @@ module z_test
   always_ff @(posedge clk_i) begin
     if (found_i) begin
       headers_q[found_burst_i] <= '{
-        missed: missed_i, sure: sure_i, line_index: line_index_i, victim: victim_i,
+        touched: touched_i, missed: missed_i, sure: sure_i, line_index: line_index_i, victim: victim_i,
         victim_tile: victim_tile_i, victim_half: victim_half_i};
     end
     if (resolved_i) begin
@@ -176,7 +189,8 @@ module z_test
   end
 
   // The test register. Codes of its lines are read as it is loaded.
-  logic         valid_q, first_q, touches_q, test_q, write_q;
+  logic         valid_q, first_q, touches_q, test_q, write_q, late_q;
+  logic [CodeBits-1:0] min_code_q, max_code_q;
   logic [FuncBits-1:0] func_q;
   logic [CodeBits-1:0] clear_code_q;
   tested_beat_t beat_q;
@@ -202,6 +216,9 @@ module z_test
       write_q      <= write_i;
       func_q       <= func_i;
       clear_code_q <= clear_code_i;
+      late_q       <= late_i;
+      min_code_q   <= min_code_i;
+      max_code_q   <= max_code_i;
       beat_q       <= beat_i;
     end
   end
@@ -218,8 +235,17 @@ module z_test
   end
 
   logic unused_next_header;
-  assign unused_next_header = ^{next_header.missed, next_header.sure, next_header.victim,
+  assign unused_next_header = ^{next_header.touched, header.touched, next_header.missed, next_header.sure, next_header.victim,
                                 next_header.victim_tile, next_header.victim_half};
+
+  // Late writes, which go before the beat in the test register or, where it is empty, before a clear or the flush.
+  logic                                      blocked, writes_late, late_empty;
+  logic [ZParts-1:0]                         late_part, held;
+  logic [ZParts-1:0] [PartLineBits-1:0]      late_line;
+  logic [TileQuads-1:0] [3:0]                late_sample;
+  logic [TileQuads-1:0] [3:0] [CodeBits-1:0] late_codes;
+
+  assign writes_late = valid_q ? first_q & blocked : drain_i & ~late_empty;
 
   // When the first beat of a burst may be tested.
   burst_count_t  resolved_q;                  // bursts, not yet begun
@@ -236,8 +262,9 @@ module z_test
   logic filled, there, buffers_free, ready_to_begin;
   assign there          = resolved_q != '0 && filled;
   assign buffers_free   = buffers_left >= wanted_buffers;
-  assign ready_to_begin = there && buffers_free && fifo_free_q != '0;
-  assign activity_o     = !valid_q        ? ZTestNoBurst
+  assign ready_to_begin = ~blocked && there && buffers_free && fifo_free_q != '0;
+  assign activity_o     = writes_late     ? ZTestLate
+                          : !valid_q      ? ZTestNoBurst
                           : fire          ? ZTestBusy
                           : !there        ? ZTestFill
                           : !buffers_free ? ZTestWriteBuffer : ZTestNoCredit;
@@ -290,16 +317,22 @@ module z_test
     assign read_line = load ? next_header.line_index[p] : scan_next_line_i;
 
     for (genvar q = 0; q < PartQuads; q++) begin : gen_bank
+      localparam int unsigned Quad = p * PartQuads + q;
+      logic writes_quad;
+      assign writes_quad = |wrote[Quad] | (swap & header.missed[p]);
+
       z_bank #(
-        .Lines (PartLines)
+        .Lines (PartLines),
+        .Late  (LateQueue != 0)
       ) u_bank (
         .clk_i        (clk_i),
         .read_i       (load | ~valid_q),
         .read_line_i  (read_line),
         .codes_o      (stored[p][q]),
-        .write_i      (|wrote[p*PartQuads+q] | (swap & header.missed[p])),
-        .write_line_i (header.line_index[p]),
-        .codes_i      (updated[p*PartQuads+q])
+        .write_i      (late_part[p] ? late_sample[Quad] : {4{writes_quad}}),
+        .held_i       (held[p]),
+        .write_line_i (late_part[p] ? late_line[p] : header.line_index[p]),
+        .codes_i      (late_part[p] ? late_codes[Quad] : updated[Quad])
       );
     end
 
@@ -345,7 +378,7 @@ module z_test
           if (beat_q.mask[v][s]) begin
             pass = passes(func_q, code, old[s]) | ~test_q | (func_q == '1)
                    | sure_quads[beat_q.index[v]];
-            if (pass && touches_q && write_q) begin
+            if (pass && touches_q && write_q && !late_q) begin
               wrote[beat_q.index[v]][s]   = 1'b1;
               updated[beat_q.index[v]][s] = code;
             end
@@ -356,6 +389,56 @@ module z_test
         end
       end
     end
+  end
+
+  if (LateQueue != 0) begin : gen_late
+    logic writes;
+
+    z_late_writes #(
+      .Queue         (LateQueue),
+      .LineIndexBits (PartLineBits)
+    ) u_late_writes (
+      .clk_i             (clk_i),
+      .rst_ni            (rst_ni),
+      .beat_i            (fire & late_q),
+      .first_i           (first_q),
+      .last_i            (beat_q.last),
+      .index_i           (beat_q.index),
+      .passed_i          (result_d.passed),
+      .codes_i           (result_d.depth),
+      .touched_i         (header.touched),
+      .line_index_i      (header.line_index),
+      .answer_i          (answer_i),
+      .keep_i            (keep_i),
+      .load_i            (load & first_i),
+      .next_late_i       (late_i),
+      .next_touched_i    (next_header.touched),
+      .next_line_index_i (next_header.line_index),
+      .blocked_o         (blocked),
+      .write_i           (writes_late),
+      .write_o           (writes),
+      .write_part_o      (late_part),
+      .write_line_o      (late_line),
+      .write_sample_o    (late_sample),
+      .write_codes_o     (late_codes),
+      .empty_o           (late_empty)
+    );
+
+    for (genvar p = 0; p < ZParts; p++) begin : gen_held
+      assign held[p] = writes & valid_q & header.touched[p]
+                       & (late_line[p] == header.line_index[p]);
+    end
+  end else begin : gen_no_late
+    assign blocked     = 1'b0;
+    assign late_empty  = 1'b1;
+    assign late_part   = '0;
+    assign held        = '0;
+    assign late_line   = '0;
+    assign late_sample = '0;
+    assign late_codes  = '0;
+
+    logic unused_late;
+    assign unused_late = ^{answer_i, keep_i, late_q};
   end
 
   // What the burst leaves: its last beat sees all that the others have written.
@@ -384,12 +467,17 @@ module z_test
       .valid_i        (burst_done_o),
       .parts_i        (touches_q ? parts : '0),
       .codes_i        (updated),
+      .least_i        (late_q && func_q[0] ? min_code_q : '1),
+      .most_i         (late_q && func_q[2] ? max_code_q : '0),
       .update_valid_o (update_valid_o),
       .update_o       (update_o)
     );
   end else begin : gen_no_update
     assign update_valid_o = 1'b0;
     assign update_o       = '0;
+
+    logic unused_update;
+    assign unused_update = ^{min_code_q, max_code_q};
   end
 
   // Dirty slots.
@@ -403,6 +491,8 @@ module z_test
         end else if (first_q && header.missed[p]) begin
           dirty_q[p][header.line_index[p]] <= 1'b0;
         end
+      end else if (late_part[p]) begin
+        dirty_q[p][late_line[p]] <= 1'b1;
       end else if (scan_i && scan_part_i[p] && scan_done_o) begin
         dirty_q[p][scan_line_i] <= 1'b0;
       end else if (drop_i) begin
@@ -516,6 +606,6 @@ module z_test
 
   assign last_popped = beat_valid_o & beat_ready_i & beat_o.last;
   assign written_o   = buffers_left == buffer_count_t'(WriteBuffers);
-  assign idle_o      = fifo_free_q == fifo_count_t'(FifoDepth) && written_o;
+  assign idle_o      = fifo_free_q == fifo_count_t'(FifoDepth) && written_o && late_empty;
 
 endmodule

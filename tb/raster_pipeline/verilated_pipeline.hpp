@@ -31,6 +31,10 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
       set_port(m.state_i, in.state);
     }
     m.beat_ready_i = in.beat_ready;
+    m.late_valid_i = in.late_valid;
+    if (in.late_valid) {
+      set_port(m.late_keep_i, in.late_keep);
+    }
     m.fill_valid_i = in.fill_valid;
     if (in.fill_valid) {
       set_port(m.fill_data_i, in.fill);

@@ -100,7 +100,7 @@ void check_counts(const std::string& name) {
   const bool exact = name == "vkcube" || name == "glmark2_shadow";
   for (const Expected& row : rows) {
     Config config;
-    config.late_z = row.opaque ? LateZ::kOpaque : LateZ::kNoWrite;
+    config.late_z.mode = row.opaque ? LateZ::kOpaque : LateZ::kNoWrite;
     const FrameResult result = run_functional(frame, config);
     const Counters& counters = result.surfaces.at(row.surface).counters;
     const auto fragments = static_cast<double>(counters.quad_generator.fragments);

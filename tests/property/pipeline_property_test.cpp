@@ -321,7 +321,7 @@ TEST_CASE("every state of a draw gives what the reference gives") {
     }
     const bool opaque = n % 2 == 0;
     Config config;
-    config.late_z = opaque ? LateZ::kOpaque : LateZ::kNoWrite;
+    config.late_z.mode = opaque ? LateZ::kOpaque : LateZ::kNoWrite;
     const Surface ours = run_surface(builder.frame, config);
     const reference::Surface theirs =
         reference::rasterize(builder.frame,

@@ -302,7 +302,7 @@ TEST_CASE("what if: no order changes the depth of random frames, nor moves what 
       command.source_event = whatif::may_move(frame, command) ? 0 : ++event;
     }
     Config config;
-    config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
+    config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
     const auto check = [&](const auto& act) {
       Frame changed = frame;
       acted += act(changed).draws;

@@ -40,7 +40,8 @@ class ProbedRun {
 
   FrameCycles finish(std::span<const ZFlush> dirty) {
     probe.drained(core_.progress());
-    return probe.finish(core_.flush(dirty, static_cast<std::uint32_t>(config_.z_cache.lines)));
+    const std::uint64_t cycles = core_.flush(dirty, static_cast<std::uint32_t>(config_.z_cache.lines));
+    return probe.finish(cycles, core_.progress());
   }
 
   Probe probe;
@@ -135,6 +136,7 @@ void read_in_parts(const StreamView& stream, StreamReader& reader, Random& rando
                                  .job = stream.jobs.data(),
                                  .miss = stream.misses.data(),
                                  .miss_burst = stream.miss_burst.data(),
+                                 .late = stream.late.data(),
                                  .continues_triangle = false};
   for (const StreamSegment& segment : stream.segments) {
     writer.begin_segment(segment.kind, segment.surface, segment.touches_depth != 0);
@@ -148,7 +150,10 @@ void read_in_parts(const StreamView& stream, StreamReader& reader, Random& rando
         for (int j = 0; j < at.block->jobs(); ++j, ++at.job) {
           writer.job(*at.job);
           if (segment.touches_depth != 0 && *at.job != 0) {
-            writer.accessed(HWY_NAMESPACE::next_misses(at));
+            JobWork work;
+            HWY_NAMESPACE::next_access(at, work);
+            writer.late(work.late_done, work.late);
+            writer.accessed(work.misses);
           }
         }
       }

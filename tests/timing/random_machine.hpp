@@ -44,7 +44,11 @@ inline Config random_config(Random& random) {
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
   config.hi_z.fifo = mostly_small(random, 4, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
-  config.late_z = pick(random, {LateZ::kOpaque, LateZ::kNoWrite});
+  config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite, LateZ::kLate, LateZ::kLate});
+  config.late_z.queue = mostly_small(random, 1, 64);
+  config.late_z.latency = pick(random, {1, 2, 10, 100, 200, 3000});
+  config.late_z.discard = pick(random, {0, kWholeShare / 3, kWholeShare / 2, kWholeShare});
+  config.late_z.seed = static_cast<int>(random.between(1, 1000));
 
   config.setup.queue = mostly_small(random, 2, 64);
   config.setup.interval = pick(random, {1, 2, 4, 8, 16});
@@ -98,7 +102,9 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.hi_z.bits = recorded.hi_z.bits;
     config.hi_z.lag = recorded.hi_z.lag;
     config.depth.interpolator = recorded.depth.interpolator;
-    config.late_z = recorded.late_z;
+    config.late_z.mode = recorded.late_z.mode;
+    config.late_z.discard = recorded.late_z.discard;
+    config.late_z.seed = recorded.late_z.seed;
     config.z_cache.fast_clear = recorded.z_cache.fast_clear;
     config.z_cache.compression = recorded.z_cache.compression;
     if (config.z_cache.compression || config.hi_z.enabled) {

@@ -46,6 +46,7 @@ inline FrameRecord random_record(Random& random, const Config& config) {
     segment.kind = random.between(0, 4) == 0 ? StreamSegment::Kind::kDrawnClear : StreamSegment::Kind::kDraw;
     segment.touches_depth = random.between(0, 4) != 0 ? 1 : 0;
     segment.triangles = count(10, 100);
+    const bool late = config.late_z.mode == LateZ::kLate && random.between(0, 1) == 0;
     const std::int64_t local = random.between(0, 15);  // bursts stay in so many columns
     for (std::uint32_t i = 0; i < segment.triangles; ++i) {
       StreamTriangle triangle{
@@ -67,7 +68,8 @@ inline FrameRecord random_record(Random& random, const Config& config) {
           packets.accesses.emplace_back(
               static_cast<std::uint32_t>(random.between(0, local)), count(3, 15), touched, written,
               static_cast<std::uint8_t>(written & static_cast<std::uint8_t>(random.between(0, bands))),
-              random_shifts(random, config, record.surfaces[0].sample_bytes));
+              random_shifts(random, config, record.surfaces[0].sample_bytes), late,
+              late && (written != 0 || random.between(0, 1) == 0));
         }
       }
       packets.triangles.push_back(triangle);

@@ -98,7 +98,7 @@ class ScalarProbe {
   void read(Cycle cycles, Cycle /*end*/) { here().read_busy += cycles; }
   void write(Cycle cycles, Cycle /*end*/) { here().write_busy += cycles; }
 
-  FrameCycles finish(Cycle cycles) {
+  FrameCycles finish(Cycle cycles, const Progress<Cycle>& /*at*/) {
     FrameCycles frame{.cycles = cycles, .stats = outside_, .draws = draws_};
     for (const DrawCycles& draw : draws_) {
       frame.stats += draw.stats;

@@ -47,7 +47,7 @@ class NotingReader final : public StreamReader {
     jobs.insert(jobs.end(), part.jobs.begin(), part.jobs.end());
     sizes.insert(sizes.end(),
                  {part.segments.size(), part.triangles.size(), part.blocks.size(), part.jobs.size(),
-                  part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.tiles.size(),
+                  part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.late.size(), part.tiles.size(),
                   std::size_t{part.continues_segment} + std::size_t{part.continues_triangle} * 2 +
                       std::size_t{part.open_segment} * 4 + std::size_t{part.open_triangle} * 8});
   }
@@ -79,6 +79,7 @@ void write_part(StreamReader& reader, std::size_t number) {
   std::vector<StreamAccess> accesses(number % 5);
   std::vector<ZMiss> misses(number % 7);
   std::vector<std::uint32_t> miss_burst(number % 7 + 1, kNoBurst);
+  std::vector<StreamLate> late(number % 3 + 1, StreamLate{.access = kNoBurst});
   std::vector<StreamTile> tiles(jobs.size());
   reader.read({.segments = segments,
                .triangles = triangles,
@@ -87,6 +88,7 @@ void write_part(StreamReader& reader, std::size_t number) {
                .accesses = accesses,
                .misses = misses,
                .miss_burst = miss_burst,
+               .late = late,
                .tiles = tiles,
                .continues_segment = number % 2 == 0,
                .continues_triangle = number % 4 < 2,

@@ -59,6 +59,9 @@ void check_draw(const DrawStatePacket& draw) {
   if (draw.test != 0 && draw.format == 0) {
     throw InputError("state.test is 1; legal: 0, since state.format is 0 (none)");
   }
+  if (draw.late != 0) {
+    throw InputError("state.late is 1; legal: 0, since nobody here can say what the shader keeps");
+  }
   const std::uint32_t largest = largest_code(static_cast<DepthFormat>(draw.format));
   if (draw.most_code > largest || draw.least_code > draw.most_code) {
     throw InputError(

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "halfspace/numerics/error.hpp"
@@ -15,9 +16,10 @@
 namespace halfspace {
 namespace {
 
-/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`.
+/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`, a
+/// share is in parts of kWholeShare.
 struct Legal {
-  enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kOneOf } kind;
+  enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kShare, kOneOf } kind;
   int least = 0;
   int most = 0;
   std::vector<std::string> words;  ///< as they are written; empty for integers
@@ -26,6 +28,7 @@ struct Legal {
 // The names that the table uses.
 Legal range(int least, int most) { return {Legal::Kind::kRange, least, most, {}}; }
 Legal power_of_two(int least, int most) { return {Legal::Kind::kPowerOfTwo, least, most, {}}; }
+Legal share() { return {Legal::Kind::kShare, 0, kWholeShare, {}}; }
 Legal boolean() { return {Legal::Kind::kBoolean, 0, 1, {"false", "true"}}; }
 Legal one_of(auto... names) {
   return {Legal::Kind::kOneOf, 0, static_cast<int>(sizeof...(names)) - 1, {names...}};
@@ -79,14 +82,37 @@ std::string legal_text(const Legal& legal) {
     }
     case Legal::Kind::kBoolean:
       return "true, false";
+    case Legal::Kind::kShare:
+      return "0 to 1";
     case Legal::Kind::kOneOf:
       break;
   }
   return fmt::format("{}", fmt::join(legal.words, ", "));
 }
 
+/// The share that `text` says, rounded; none where it is not a number from 0 to 1 in plain digits.
+std::optional<int> parse_share(std::string_view text) {
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  const bool legal = error == std::errc{} && end == text.data() + text.size() && value >= 0 && value <= 1;
+  return legal ? std::optional(static_cast<int>(std::lround(value * kWholeShare))) : std::nullopt;
+}
+
+/// The shortest number that means this share.
+std::string share_text(int value) {
+  std::string text;
+  for (int digits = 0; parse_share(text) != value; ++digits) {
+    text = fmt::format("{:.{}f}", static_cast<double>(value) / kWholeShare, digits);
+  }
+  return text;
+}
+
 std::string value_text(const Key& key, const Config& config) {
   const int value = key.get(config);
+  if (key.legal.kind == Legal::Kind::kShare) {
+    return share_text(value);
+  }
   return key.legal.words.empty() ? std::to_string(value) : key.legal.words[static_cast<std::size_t>(value)];
 }
 
@@ -96,6 +122,9 @@ std::optional<int> parse_value(const Legal& legal, std::string_view text) {
     const auto found = std::ranges::find(legal.words, text);
     return found == legal.words.end() ? std::nullopt
                                       : std::optional(static_cast<int>(found - legal.words.begin()));
+  }
+  if (legal.kind == Legal::Kind::kShare) {
+    return parse_share(text);
   }
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -117,8 +146,14 @@ constexpr Renamed kRenamed[] = {{"tile_walker.block_size", "block_walker.block_s
                                 {"walker.trivial_reject", "block_walker.trivial_reject"},
                                 {"walker.", "tile_walker."}};
 
+/// Short for another key.
+constexpr Renamed kShort{"late_z", "late_z.mode"};
+
 const Key& find_key(std::string_view name) {
   const auto find = [](std::string_view wanted) { return std::ranges::find(keys(), wanted, &Key::name); };
+  if (name == kShort.was) {
+    return *find(kShort.is);
+  }
   if (const auto found = find(name); found != keys().end()) {
     return *found;
   }
@@ -137,17 +172,22 @@ const Key& find_key(std::string_view name) {
   throw InputError(fmt::format("unknown configuration key '{}'; legal: {}", name, fmt::join(names, ", ")));
 }
 
-std::string text_of_node(const toml::node& node, const std::string& name) {
+std::string text_of_node(const toml::node& node, const Key& key, const std::string& name) {
   if (const auto* text = node.as_string()) {
     return text->get();
   }
   if (const auto* integer = node.as_integer()) {
     return std::to_string(integer->get());
   }
+  const bool is_share = key.legal.kind == Legal::Kind::kShare;
+  if (const auto* number = node.as_floating_point(); number != nullptr && is_share) {
+    return fmt::format("{}", number->get());
+  }
   if (const auto* boolean = node.as_boolean()) {
     return boolean->get() ? "true" : "false";
   }
-  throw InputError(fmt::format("configuration key '{}' must be an integer, a boolean or a string", name));
+  throw InputError(fmt::format("configuration key '{}' must be {}, a boolean or a string", name,
+                               is_share ? "a number" : "an integer"));
 }
 
 void apply_table(Config& config, const toml::table& table, const std::string& prefix) {
@@ -156,8 +196,7 @@ void apply_table(Config& config, const toml::table& table, const std::string& pr
     if (const toml::table* section = node.as_table()) {
       apply_table(config, *section, name + ".");
     } else {
-      find_key(name);  // an unknown key is reported as such, whatever its type
-      set_config(config, name, text_of_node(node, name));
+      set_config(config, name, text_of_node(node, find_key(name), name));
     }
   }
 }

@@ -13,10 +13,14 @@
 
 namespace halfspace {
 
+/// A share of 1, as keys keep it.
+inline constexpr int kWholeShare = 1 << 16;
+
 /// How draws are taken whose shader may discard, writes depth or has side effects.
 enum class LateZ : std::uint8_t {
   kOpaque,   ///< as if every fragment were kept: they test and write at early-Z
   kNoWrite,  ///< they test only
+  kLate,     ///< they test at early-Z, and write what the shader keeps when it is through
 };
 
 /// The machine: a member for each key, in a struct for each section, as keys.hpp lists and explains them:

@@ -17,17 +17,15 @@
 ///   PACKAGE(..., Parameter, define)   parameter of raster_pkg.sv, and the define that sets it
 ///
 /// section  with its dot, as the member is reached: `config.section.name`; empty outside all sections
-/// legal    range(least, most), power_of_two(least, most), boolean() or one_of(names), whose place in the list
-///          is the value of the enumeration; what depends on other keys is in validate()
+/// legal    range(least, most), power_of_two(least, most), boolean(), share(), a number from 0 to 1 that is kept
+///          in 2^16ths, or one_of(names), whose place in the list is the value of the enumeration; what depends
+///          on other keys is in validate()
 /// unit     empty where there is none
 /// changes  function: may change packets; time: only the cycles in which they move
 ///
 /// The smallest FIFO has an output register and a slot; the largest keeps the triangles behind the walker
 /// within the 256 contexts that a tile job can name.
 #define HALFSPACE_KEYS(BEGIN, END, KEY, MODULE, PACKAGE)                                                     \
-  KEY(, late_z, LateZ, LateZ::kOpaque, one_of("opaque", "no_write"), "", function,                           \
-      "draws whose shader may discard, writes depth or has side effects: opaque = test and write, "          \
-      "no_write = test only")                                                                                \
   BEGIN(raster)                                                                                              \
     PACKAGE(raster., sub_pixel_bits, int, 8, range(4, 8), "bits", function,                                  \
         "fraction bits of a snapped window coordinate", SubPixelBits, HALFSPACE_SUB_PIXEL_BITS)              \
@@ -92,6 +90,21 @@
     MODULE(early_z., fifo, int, 16, range(2, 64), "bursts", time,                                            \
         "output FIFO of early_z", EarlyZFifo)                                                                \
   END(early_z)                                                                                               \
+  BEGIN(late_z)                                                                                              \
+    MODULE(late_z., mode, LateZ, LateZ::kOpaque, one_of("opaque", "no_write", "late"), "", function,         \
+        "draws whose shader may discard, writes depth or has side effects: opaque = test and write, "        \
+        "no_write = test only, late = test, and write when the shader is through; `late_z = MODE` is short " \
+        "for it", LateZMode)                                                                                 \
+    MODULE(late_z., queue, int, 16, range(1, 64), "bursts", time,                                            \
+        "late writes that may be out", LateQueue)                                                            \
+    KEY(late_z., latency, int, 200, range(1, 65535), "cycles", time,                                         \
+        "from the last beat of a burst at the shader to its answer")                                         \
+    KEY(late_z., discard, int, 0, share(), "", function,                                                     \
+        "share of the fragments that the shader discards: those that a hash of draw, triangle and pixel "    \
+        "chooses")                                                                                           \
+    KEY(late_z., seed, int, 1, range(1, 2147483647), "", function,                                           \
+        "seed of that hash")                                                                                 \
+  END(late_z)                                                                                                \
   BEGIN(depth)                                                                                               \
     MODULE(depth., interpolator, DepthInterpolator, DepthInterpolator::kPlane,                               \
         one_of("plane", "barycentric"), "", function,                                                        \

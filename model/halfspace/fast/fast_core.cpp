@@ -101,6 +101,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }
+  if (config.late_z.mode == LateZ::kLate) {
+    return "late_z.mode = late";
+  }
   if (config.block_walker.sample_reject) {
     return "block_walker.sample_reject = true";
   }

@@ -269,25 +269,25 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, bool 
     }
   }
   TileCodes<TileSize> codes;
-  const TileMask passed = passage::z_test<TileSize>(triangle, burst, draw, stored, codes);
+  const passage::Tested tested = passage::z_test<TileSize>(triangle, burst, draw, stored, codes);
   if (task_.surface != nullptr) {
     const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize);
     task_.tiles->z_min[at] = static_cast<std::int32_t>(*least);
     task_.tiles->z_max[at] = static_cast<std::int32_t>(*most);
     task_.tiles->change(block);
     if (task_.counts_pixels || draw.keeps_visible || draw.sums != nullptr) {
-      passage::sink<TileSize>(coverage.mask, passed, job.tile_x, job.tile_y, triangle.triangle, draw,
+      passage::sink<TileSize>(coverage.mask, tested, job.tile_x, job.tile_y, triangle.triangle, draw,
                               task_.surface);
     }
   }
   if (touches_depth(draw.early_z)) {
     const int parts = memory_.config.z_cache.parts;
     look_up(job.tile_x, job.tile_y, parts_of_mask<TileSize>(coverage.mask, parts),
-            draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0});
+            draw.early_z.write ? parts_of_mask<TileSize>(tested.passed, parts) : std::uint8_t{0});
     if (stream_ && stream_->wants_accesses()) {
       constexpr int kBands = stream_bands(TileSize);
       stream_->access({job.tile_x, job.tile_y, passage::touched_parts<TileSize>(coverage, draw, kBands),
-                       passage::written_parts<TileSize>(passed, draw, kBands)});
+                       passage::written_parts<TileSize>(tested.kept, draw, kBands)});
     }
   }
   tell_job(burst.quads);

@@ -7,6 +7,7 @@
 #include "halfspace/machine/packet_sums.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
+#include "halfspace/units/late_writes.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/z_test.hpp"
 
@@ -23,6 +24,7 @@ struct DrawContext {
   std::uint32_t first_triangle = 0;  ///< triangles of the draws before
   SetupState setup;
   EarlyZState early_z;
+  ShaderDiscard discard;
   bool keeps_visible = false;          ///< its survivors go into Surface::visible
   PacketSums* sums = nullptr;          ///< of the surface, where they are kept
   PacketObserver* observer = nullptr;  ///< not null where one of the following is set

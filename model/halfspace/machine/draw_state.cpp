@@ -83,13 +83,21 @@ SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
 
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config) {
   const bool test = draw.has(Flag::kDepthTest) && format != DepthFormat::kNone;
-  return {
-      .test = test,
-      .write = test && draw.has(Flag::kDepthWrite) && (config.late_z == LateZ::kOpaque || !tests_late(draw)),
-      .func = draw.depth_func,
-      .format = format,
-      .interpolator = config.depth.interpolator,
-      .sub_pixel_bits = config.raster.sub_pixel_bits};
+  const bool to_write = test && draw.has(Flag::kDepthWrite);
+  const LateZ mode = tests_late(draw) ? config.late_z.mode : LateZ::kOpaque;
+  EarlyZState state{.test = test,
+                    .write = to_write && mode != LateZ::kNoWrite,
+                    .func = draw.depth_func,
+                    .format = format,
+                    .interpolator = config.depth.interpolator,
+                    .sub_pixel_bits = config.raster.sub_pixel_bits};
+  state.late = state.write && mode == LateZ::kLate && touches_depth(state);
+  return state;
+}
+
+ShaderDiscard shader_discard(const Config& config) {
+  return {.seed = static_cast<std::uint64_t>(config.late_z.seed),
+          .share = (static_cast<std::uint64_t>(config.late_z.discard) << 32) / kWholeShare};
 }
 
 DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& early_z, const ZSurface& place,
@@ -106,6 +114,7 @@ DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& ea
       .most_code = setup.limits.most,
       .test = flag(early_z.test),
       .write = flag(early_z.write),
+      .late = flag(early_z.late),
       .func = static_cast<std::uint8_t>(early_z.func),
       .clear_code = clear_code,
       .first_tile = place.first_tile,

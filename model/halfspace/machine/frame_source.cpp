@@ -92,6 +92,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.first_triangle = first_triangle_;
   draw.setup = setup_state(command, target, format, config_);
   draw.early_z = early_z_state(command, format, config_);
+  draw.discard = shader_discard(config_);
   draw.keeps_visible =
       has_depth && !surfaces_[number].visible.empty() && (draw.early_z.write || !depth_written_[number]);
   draw.sums = has_depth && !surfaces_[number].sums.empty() ? &surfaces_[number].sums : nullptr;

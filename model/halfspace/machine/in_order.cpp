@@ -166,11 +166,12 @@ class InOrderRun {
   void job(const TileJob& job, bool whole) {
     const Coverage coverage = passage::edge_evaluator<TileSize>(job, whole, *draw_);
     int quads = 0;
+    update_ = {};
     if (any(coverage.mask)) {
       quads = burst(passage::quad_generator<TileSize>(coverage, *draw_));
     }
     if (config_.hi_z.enabled) {
-      retire(coverage);
+      hi_z_.retire(update_);
     }
     if (stream_) {
       stream_->job(quads);
@@ -180,48 +181,45 @@ class InOrderRun {
     }
   }
 
-  /// Tells hi_z what is stored in the tile of a job.
-  void retire(const Coverage& coverage) {
-    HiZUpdate update;
-    if (touches_depth_ && any(coverage.mask)) {
-      const int parts = config_.z_cache.parts;
-      update = hi_z_update<TileSize>(surface_->codes.tile(coverage.tile_x, coverage.tile_y),
-                                     passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
-    }
-    hi_z_.retire(update);
-  }
-
   /// Returns the burst's quads.
   int burst(const Burst& burst) {
     const Coverage& coverage = burst.packet.coverage;
     std::uint32_t* const stored =
         surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
-    const TileMask passed = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
-    passage::sink<TileSize>(coverage.mask, passed, coverage.tile_x, coverage.tile_y, triangle_.triangle,
+    const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+    passage::sink<TileSize>(coverage.mask, tested, coverage.tile_x, coverage.tile_y, triangle_.triangle,
                             *draw_, surface_);
     if (touches_depth_) {
-      look_up(coverage, passed);
+      const int parts = config_.z_cache.parts;
+      if (config_.hi_z.enabled) {
+        update_ = passage::hi_z_update<TileSize>(*draw_, triangle_.depth, stored,
+                                                 passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+      }
+      passage::write_late<TileSize>(tested, codes_, *draw_, stored);
+      look_up(coverage, tested);
     }
     if (draw_->record_quads) {
-      show_quads(burst, passed);
+      show_quads(burst, tested.passed);
     }
     quads_.count_burst();
     return burst.quads;
   }
 
-  void look_up(const Coverage& coverage, const TileMask& passed) {
+  void look_up(const Coverage& coverage, const passage::Tested& tested) {
     const ZSurface& place = places_[draw_->surface];
     const ZAccess access = passage::z_access<TileSize>(
-        coverage, passed, surface_->codes.tile(coverage.tile_x, coverage.tile_y), *draw_, place, config_);
+        coverage, tested, surface_->codes.tile(coverage.tile_x, coverage.tile_y), *draw_, place, config_);
     const ZMisses misses = passage::z_cache(z_cache_, place, coverage, access, *draw_);
     if (stream_) {
+      stream_->late(misses.late_done, access.late_write);
       stream_->accessed(misses.parts());
       if (stream_->wants_accesses()) {
         constexpr int kBands = stream_bands(TileSize);
         stream_->access({coverage.tile_x, coverage.tile_y,
                          passage::touched_parts<TileSize>(coverage, *draw_, kBands),
-                         passage::written_parts<TileSize>(passed, *draw_, kBands),
-                         sure_parts<TileSize>(coverage, kBands), access.shifts});
+                         passage::written_parts<TileSize>(tested.kept, *draw_, kBands),
+                         sure_parts<TileSize>(coverage, kBands), access.shifts, access.late,
+                         access.late_write});
       }
     }
   }
@@ -282,6 +280,7 @@ class InOrderRun {
   Surface* surface_ = nullptr;  ///< null where the target has no depth
   bool touches_depth_ = false;
   SetupTriangle triangle_;
+  HiZUpdate update_;  ///< of the job at work
   TileCodes<TileSize> codes_{};
 };
 

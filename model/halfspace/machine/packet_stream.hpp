@@ -38,15 +38,16 @@ class StreamBlock {
 using StreamJob = std::uint8_t;
 
 /// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
-/// half in tiles of 4 x 4), that it touches, writes and overwrites whole; and by how much the parts that it
-/// writes are coded then, on the machine that the stream is of.
+/// half in tiles of 4 x 4), that it touches, writes and overwrites whole; by how much the parts that it writes
+/// are coded then, on the machine that the stream is of; and whether its draw writes late, and it does.
 class StreamAccess {
  public:
   StreamAccess() = default;
   StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written,
-               std::uint8_t sure = 0, ZShifts shifts = {})
+               std::uint8_t sure = 0, ZShifts shifts = {}, bool late = false, bool late_write = false)
       : words_{tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
-               sure | std::uint32_t{shifts.bits()} << 4} {}
+               sure | std::uint32_t{shifts.bits()} << 4 | (late ? 1u << 12 : 0) |
+                   (late_write ? 1u << 13 : 0)} {}
   explicit StreamAccess(const std::array<std::uint32_t, 2>& words) : words_(words) {}
   [[nodiscard]] std::uint32_t tile_x() const { return words_[0] & 0xFFF; }
   [[nodiscard]] std::uint32_t tile_y() const { return words_[0] >> 12 & 0xFFF; }
@@ -54,6 +55,8 @@ class StreamAccess {
   [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(words_[0] >> 28); }
   [[nodiscard]] std::uint8_t sure() const { return words_[1] & 0xF; }
   [[nodiscard]] ZShifts shifts() const { return ZShifts(static_cast<std::uint8_t>(words_[1] >> 4)); }
+  [[nodiscard]] bool late() const { return (words_[1] >> 12 & 1) != 0; }
+  [[nodiscard]] bool late_write() const { return (words_[1] >> 13 & 1) != 0; }
   [[nodiscard]] const std::array<std::uint32_t, 2>& words() const { return words_; }
 
  private:
@@ -95,13 +98,21 @@ struct PacketStream {
   std::vector<StreamAccess> accesses;  ///< of the bursts of segments that touch depth
 };
 
+/// A burst that waits for late writes, or that leaves one.
+struct StreamLate {
+  std::uint32_t access = 0;
+  std::uint32_t done = 0;  ///< so many late writes of the frame are done before it is tested
+  bool leaves = false;
+};
+
 /// What the z cache of one machine says to the bursts of a stream. It does not depend on time.
 struct ZMissStream {
   std::vector<ZMiss> misses;         ///< of all bursts, in order
   std::vector<std::uint32_t> burst;  ///< the access each miss belongs to; then one that no access has
+  std::vector<StreamLate> late;      ///< in order; then one of kNoBurst
 };
 
-/// Ends ZMissStream::burst.
+/// Ends ZMissStream::burst and late.
 inline constexpr std::uint32_t kNoBurst = 0xFFFFFFFFu;
 
 /// A dirty line of the z cache at the end of the frame.
@@ -125,6 +136,7 @@ struct StreamView {
   std::span<const StreamAccess> accesses;  ///< empty where the reader did not ask for them
   std::span<const ZMiss> misses;           ///< see ZMissStream
   std::span<const std::uint32_t> miss_burst;
+  std::span<const StreamLate> late;
   std::span<const StreamTile> tiles;  ///< one a job; empty where the reader did not ask for them
   bool continues_segment = false;     ///< the first segment began in the part before
   bool continues_triangle = false;    ///< so did the first triangle

@@ -27,7 +27,7 @@ namespace halfspace {
   S(EdgeEvaluator, edge_evaluator, Job,      "no_tile", "no_credit")                                           \
   S(QuadGenerator, quad_generator, Job,      "no_coverage", "no_credit")                                       \
   S(ZLookup,       z_lookup,       Burst,    "no_burst", "pending_full", "write_back", "fill_buffers", "request") \
-  S(ZTest,         z_test,         Burst,    "no_burst", "fill", "write_buffer", "no_credit")
+  S(ZTest,         z_test,         Burst,    "no_burst", "late", "fill", "write_buffer", "no_credit")
 
 /// L(Identifier, name, key of its capacity, latency, where its packets can be held back). The links, by the unit that
 /// fills them; the queue and the pending store are inside setup and early_z. The latency is that of the unit: cycles
@@ -130,6 +130,7 @@ inline constexpr std::size_t kLookupPendingFull = stall_reason(Stage::kZLookup, 
 inline constexpr std::size_t kLookupWriteBack = stall_reason(Stage::kZLookup, "write_back");
 inline constexpr std::size_t kLookupFillBuffers = stall_reason(Stage::kZLookup, "fill_buffers");
 inline constexpr std::size_t kLookupRequest = stall_reason(Stage::kZLookup, "request");
+inline constexpr std::size_t kTestLate = stall_reason(Stage::kZTest, "late");
 inline constexpr std::size_t kTestFill = stall_reason(Stage::kZTest, "fill");
 inline constexpr std::size_t kTestWriteBuffer = stall_reason(Stage::kZTest, "write_buffer");
 inline constexpr std::size_t kTestNoCredit = stall_reason(Stage::kZTest, "no_credit");

@@ -18,6 +18,7 @@ void StreamWriter::end_segment(std::uint64_t triangles) {
 
 void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycles) {
   z_.burst.push_back(kNoBurst);
+  z_.late.push_back({.access = kNoBurst});
   reader_.read({.segments = packets_.segments,
                 .triangles = packets_.triangles,
                 .blocks = packets_.blocks,
@@ -25,6 +26,7 @@ void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycl
                 .accesses = packets_.accesses,
                 .misses = z_.misses,
                 .miss_burst = z_.burst,
+                .late = z_.late,
                 .tiles = tiles_,
                 .continues_segment = continues_segment_,
                 .continues_triangle = continues_triangle_,
@@ -40,6 +42,7 @@ void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycl
   packets_.accesses.clear();
   z_.misses.clear();
   z_.burst.clear();
+  z_.late.clear();
   tiles_.clear();
   accesses_ = 0;
   continues_segment_ = in_segment_;

@@ -50,6 +50,12 @@ class StreamWriter {
     z_.misses.push_back(miss);
     z_.burst.push_back(accesses_ + before);
   }
+  /// The burst that is counted next waits for the frame's first `done` late writes, and may leave one.
+  void late(std::uint32_t done, bool leaves) {
+    if (done != 0 || leaves) {
+      z_.late.push_back({.access = accesses_, .done = done, .leaves = leaves});
+    }
+  }
   /// What that access was, for readers that want accesses.
   void access(const StreamAccess& access) { packets_.accesses.push_back(access); }
   /// Where the last job is, for readers that want tiles.

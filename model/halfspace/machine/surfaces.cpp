@@ -5,7 +5,10 @@
 namespace halfspace {
 
 ZCacheShape z_cache_shape(const Config& config) {
-  return {.lines = config.z_cache.lines, .ways = config.z_cache.ways, .parts = config.z_cache.parts};
+  return {.lines = config.z_cache.lines,
+          .ways = config.z_cache.ways,
+          .parts = config.z_cache.parts,
+          .late_writes = config.late_z.mode == LateZ::kLate ? config.late_z.queue : 0};
 }
 
 std::vector<SurfaceShape> surface_shapes(const Frame& frame) {

@@ -15,6 +15,7 @@ void ThreadedReader::Part::copy(const StreamView& part) {
   keep(packets.accesses, view.accesses);
   keep(z.misses, view.misses);
   keep(z.burst, view.miss_burst);
+  keep(z.late, view.late);
   keep(tiles, view.tiles);
 }
 

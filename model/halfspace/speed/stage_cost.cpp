@@ -128,16 +128,17 @@ class PrefixRun {
       const Coverage& coverage = burst.packet.coverage;
       std::uint32_t* const stored =
           surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
-      const TileMask passed = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+      const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+      passage::write_late<TileSize>(tested, codes_, *draw_, stored);
       if constexpr (kLast < Last::kPixelCounts) {
-        return drop(passed);
+        return drop(tested);
       }
-      passage::sink<TileSize>(coverage.mask, passed, coverage.tile_x, coverage.tile_y, triangle_.triangle,
+      passage::sink<TileSize>(coverage.mask, tested, coverage.tile_x, coverage.tile_y, triangle_.triangle,
                               *draw_, surface_);
       if (kLast >= Last::kZCache && touches_depth(draw_->early_z)) {
         const ZSurface& place = places_[draw_->surface];
         drop(passage::z_cache(z_cache_, place, coverage,
-                              passage::z_access<TileSize>(coverage, passed, stored, *draw_, place, config_),
+                              passage::z_access<TileSize>(coverage, tested, stored, *draw_, place, config_),
                               *draw_));
       }
     }

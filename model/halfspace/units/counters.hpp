@@ -58,6 +58,7 @@ namespace halfspace {
   C(untested,          "fragments that passed because the test is off")       \
   C(survivors,         "fragments that passed")                               \
   C(written,           "fragments that wrote their depth")                    \
+  C(discarded,         "survivors that the shader of a late draw discarded")  \
   C(tiles_killed,      "tiles none of whose fragments passed")              \
   C(z_bursts,          "tiles that had to do with stored depth")            \
   C(z_hits,            "their parts that were in the z cache")              \

@@ -124,7 +124,7 @@ HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, c
                          const HiZSurface& surface) {
   see(must_retire());
   Verdict verdict;
-  const bool accept = config_.accept && state.write;
+  const bool accept = config_.accept && state.write && !state.late;
   const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
   const HiZWord stored = word(number);
   for (std::uint64_t left = state.test ? block.tiles : 0; left != 0; left &= left - 1) {

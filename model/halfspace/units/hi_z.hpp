@@ -73,6 +73,19 @@ HiZUpdate hi_z_update(const std::uint32_t* codes, std::uint8_t touched, int part
   return update;
 }
 
+/// The same for a burst of a late draw, whose writes are to come: `update` allows for any of them.
+inline void allow_for_late_write(HiZUpdate& update, const DepthEquation& equation, const EarlyZState& state) {
+  const DepthMoves moves = depth_moves(state.func, state.write);
+  for (std::size_t part = 0; part < kMaxZParts; ++part) {
+    if ((update.touched >> part & 1) == 0) {
+      continue;
+    }
+    CodeBounds& bounds = update.bounds[part];
+    bounds.least = moves.down ? std::min(bounds.least, equation.min_code) : bounds.least;
+    bounds.most = moves.up ? std::max(bounds.most, equation.max_code) : bounds.most;
+  }
+}
+
 enum class HiZOutcome : std::uint8_t { kUnknown, kNonePasses, kAllPass };
 
 /// What is stored in a tile, and which ends of it count.

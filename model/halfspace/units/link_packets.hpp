@@ -57,6 +57,7 @@ struct DrawStatePacket {
   std::uint32_t most_code = 0;   ///< nor more
   std::uint8_t test = 0;
   std::uint8_t write = 0;
+  std::uint8_t late = 0;  ///< what passes writes after the shader
   std::uint8_t func = 0;
   std::uint32_t clear_code = 0;   ///< of the surface's last fast clear
   std::uint32_t first_tile = 0;   ///< of the surface, among the tiles of all surfaces
@@ -81,6 +82,7 @@ struct DrawStatePacket {
     visit("most_code", &P::most_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("test", &P::test, &Widths::FlagBits, Sign::kUnsigned);
     visit("write", &P::write, &Widths::FlagBits, Sign::kUnsigned);
+    visit("late", &P::late, &Widths::FlagBits, Sign::kUnsigned);
     visit("func", &P::func, &Widths::FuncBits, Sign::kUnsigned);
     visit("clear_code", &P::clear_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("first_tile", &P::first_tile, &Widths::LineBits, Sign::kUnsigned);
@@ -114,6 +116,7 @@ inline EarlyZState early_z_state(const DrawStatePacket& draw, int sub_pixel_bits
                                  DepthInterpolator interpolator) {
   return {.test = draw.test != 0,
           .write = draw.write != 0,
+          .late = draw.late != 0,
           .func = static_cast<DepthFunc>(draw.func),
           .format = static_cast<DepthFormat>(draw.format),
           .interpolator = interpolator,

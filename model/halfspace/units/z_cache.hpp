@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "halfspace/units/late_writes.hpp"
 #include "halfspace/units/z_control.hpp"
 #include "halfspace/units/z_line.hpp"
 #include "halfspace/units/z_lookup.hpp"
@@ -35,10 +36,14 @@ struct ZAccess {
   std::uint8_t written = 0;
   std::uint8_t sure = 0;  ///< overwritten whole
   ZShifts shifts{};       ///< by which those that it wrote to are coded then
+  bool late = false;        ///< it writes late,
+  bool late_write = false;  ///< and something passed
 };
 
 /// The misses of a burst, in order of parts.
 struct ZMisses {
+  std::uint32_t late_done = 0;  ///< late writes of the frame that are done before it is tested, where it
+                                ///< waits for one or leaves one; else 0
   std::size_t count = 0;
   std::array<ZMiss, kMaxZParts> part;
 
@@ -50,16 +55,18 @@ class ZCache {
  public:
   ZCache() = default;
   ZCache(const ZCacheShape& shape, std::uint32_t memory_lines)
-      : shape_(shape), tags_(shape), lines_(shape, memory_lines) {}
+      : shape_(shape), tags_(shape), lines_(shape, memory_lines), late_(shape.late_writes) {}
 
   ZMisses access(const ZSurface& surface, std::uint32_t tile_x, std::uint32_t tile_y, const ZAccess& access) {
     ZMisses misses;
+    ZSlots slots;
     for (int i = 0; i < shape_.parts; ++i) {
       if ((access.touched >> i & 1) == 0) {
         continue;
       }
       const std::uint32_t line = surface.line(tile_x, tile_y, shape_.parts, i);
       const ZTags::Lookup found = tags_.lookup(tile_x, tile_y, i, line);
+      slots.add(i, found.slot);
       if (!found.hit) {
         const bool overwritten = (access.sure >> i & 1) != 0;
         const bool fetch = !overwritten && !lines_.cleared(line);
@@ -77,10 +84,23 @@ class ZCache {
         lines_.mark_written(found.slot, access.shifts.of(i));
       }
     }
+    if (shape_.late_writes != 0) {
+      const std::uint32_t done = late_.done();
+      late_.make_way(slots, access.late);
+      if (late_.done() != done || access.late_write) {
+        misses.late_done = late_.done();
+      }
+      if (access.late_write) {
+        late_.add(slots);
+      }
+    }
     return misses;
   }
 
-  void clear(const ZSurface& surface) { z_clear(tags_, lines_, surface, shape_.parts); }
+  void clear(const ZSurface& surface) {
+    late_.finish_all();
+    z_clear(tags_, lines_, surface, shape_.parts);
+  }
 
   /// See z_flush.
   template <class Visit>
@@ -92,6 +112,7 @@ class ZCache {
   ZCacheShape shape_;
   ZTags tags_;
   ZLines lines_;
+  LateWrites late_;
 };
 
 }  // namespace halfspace

@@ -19,6 +19,7 @@ struct ZCacheShape {
   int lines = 128;  ///< in all
   int ways = 4;
   int parts = 1;
+  int late_writes = 0;  ///< that may be out; 0 where no draw is late
 
   [[nodiscard]] int sets() const { return lines / (ways * parts); }
   friend bool operator==(const ZCacheShape&, const ZCacheShape&) = default;

@@ -105,7 +105,7 @@ TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const Ear
     const std::uint32_t code = codes[static_cast<std::size_t>(bit)];
     const bool pass = burst.coverage.sure != 0 || depth_passes(state.func, code, stored[bit]);
     passed.word[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{pass} << (bit % 64);
-    if (pass && state.write) {
+    if (pass && state.write && !state.late) {
       stored[bit] = code;
     }
   });

@@ -20,6 +20,7 @@ namespace halfspace {
 struct EarlyZState {
   bool test = false;   ///< off: every fragment passes and nothing is written
   bool write = false;  ///< passing fragments write; only with the test on
+  bool late = false;   ///< what passes writes after the shader, see late_writes.hpp; only with write
   DepthFunc func = DepthFunc::kAlways;
   DepthFormat format = DepthFormat::kNone;
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
@@ -41,7 +42,7 @@ void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, con
                       TileCodes<TileSize>& codes);
 
 /// Tests the burst against `stored`, the tile's codes in the surface (TileSize^2, row order), writes those
-/// that pass where the state says so, and returns the mask of the samples that passed. All of a sure burst
+/// that pass where the state says so and not late, and returns the mask of the samples that passed. All of a sure burst
 /// pass, whatever `stored` holds. Fills `codes` when the test is on.
 template <int TileSize>
 TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,

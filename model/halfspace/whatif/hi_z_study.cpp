@@ -114,15 +114,16 @@ class Study {
           surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
       const CodeBounds before = draw_->early_z.test ? bounds(stored) : CodeBounds{};
       const Burst burst = passage::quad_generator<TileSize>(coverage, *draw_);
-      const TileMask passed = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
+      const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
       if (draw_->early_z.test) {
-        dead = !any(passed);
+        dead = !any(tested.passed);
         count(block, number, coverage, before, dead);
       }
       if (touches_depth(draw_->early_z)) {
         const int parts = config_.z_cache.parts;
-        update =
-            hi_z_update<TileSize>(stored, passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+        update = passage::hi_z_update<TileSize>(
+            *draw_, triangle_.depth, stored, passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+        passage::write_late<TileSize>(tested, codes_, *draw_, stored);
       }
     }
     for (std::size_t i = 0; i < units_.size(); ++i) {

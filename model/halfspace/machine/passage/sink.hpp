@@ -10,6 +10,7 @@
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/machine/passage/packet_sums.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_mask.hpp"
 #include "halfspace/units/z_test.hpp"
@@ -37,18 +38,18 @@ void count_samples(const TileMask& mask, std::uint16_t* counts) {
   }
 }
 
-/// `surface` is the draw's, null where its target has none; `covered` and `passed` are of one tile of it, and
-/// `triangle` is the triangle's number in the draw. Of a clear nothing is counted: it only makes its samples
+/// `surface` is the draw's, null where its target has none; `covered` and what is in `tested` are of one tile
+/// of it, and `triangle` is the triangle's number in the draw. Of a clear nothing is counted: it only makes its samples
 /// invisible.
 template <int TileSize>
-void sink(const TileMask& covered, const TileMask& passed, int tile_x, int tile_y, std::uint32_t triangle,
+void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y, std::uint32_t triangle,
           const DrawContext& draw, Surface* surface) {
   if (surface == nullptr) {
     return;
   }
   if (!draw.is_clear() && !surface->fragments.empty()) {
     count_samples<TileSize>(covered, surface->fragments.tile(tile_x, tile_y));
-    count_samples<TileSize>(passed, surface->survivors.tile(tile_x, tile_y));
+    count_samples<TileSize>(tested.passed, surface->survivors.tile(tile_x, tile_y));
   }
   if (draw.sums != nullptr) {
     count_quads<TileSize>(*draw.sums, tile_x, tile_y, covered);
@@ -57,7 +58,7 @@ void sink(const TileMask& covered, const TileMask& passed, int tile_x, int tile_
     const std::uint32_t shown = draw.is_clear() ? kNothingVisible : draw.first_triangle + triangle;
     std::uint32_t* const visible = surface->visible.tile(tile_x, tile_y);
     for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
-      for (std::uint64_t left = passed.word[i]; left != 0; left &= left - 1) {
+      for (std::uint64_t left = tested.kept.word[i]; left != 0; left &= left - 1) {
         visible[i * 64 + static_cast<std::size_t>(std::countr_zero(left))] = shown;
       }
     }

@@ -7,6 +7,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/units/z_cache.hpp"
 
@@ -18,10 +19,10 @@ std::uint8_t touched_parts(const Coverage& coverage, const DrawContext& draw, in
   return touches_depth(draw.early_z) ? parts_of_mask<TileSize>(coverage.mask, parts) : std::uint8_t{0};
 }
 
-/// Bit i: some fragment writes to part i.
+/// Bit i: some fragment writes to part i. `kept`: those that passed and that the shader keeps.
 template <int TileSize>
-std::uint8_t written_parts(const TileMask& passed, const DrawContext& draw, int parts) {
-  return draw.early_z.write ? parts_of_mask<TileSize>(passed, parts) : std::uint8_t{0};
+std::uint8_t written_parts(const TileMask& kept, const DrawContext& draw, int parts) {
+  return draw.early_z.write ? parts_of_mask<TileSize>(kept, parts) : std::uint8_t{0};
 }
 
 /// By how much the parts that a burst wrote to are coded, given the tile's codes (TileSize^2, row order); 0
@@ -42,16 +43,18 @@ ZShifts coded_parts(const std::uint32_t* codes, std::uint8_t written, const ZSur
   return shifts;
 }
 
-/// What a burst wants of the z cache. `codes`: the tile's, after the burst (TileSize^2, row order).
+/// What a burst wants of the z cache. `codes`: the tile's, after all that it writes (TileSize^2, row order).
 template <int TileSize>
-ZAccess z_access(const Coverage& coverage, const TileMask& passed, const std::uint32_t* codes,
+ZAccess z_access(const Coverage& coverage, const Tested& tested, const std::uint32_t* codes,
                  const DrawContext& draw, const ZSurface& surface, const Config& config) {
   const int parts = config.z_cache.parts;
-  const std::uint8_t written = written_parts<TileSize>(passed, draw, parts);
+  const std::uint8_t written = written_parts<TileSize>(tested.kept, draw, parts);
   return {.touched = touched_parts<TileSize>(coverage, draw, parts),
           .written = written,
           .sure = sure_parts<TileSize>(coverage, parts),
-          .shifts = coded_parts<TileSize>(codes, written, surface, config)};
+          .shifts = coded_parts<TileSize>(codes, written, surface, config),
+          .late = draw.early_z.late,
+          .late_write = draw.early_z.late && any(tested.passed)};
 }
 
 /// Counts a burst that touched `touched` parts, and the lines that moved for it.

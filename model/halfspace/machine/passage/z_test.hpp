@@ -9,13 +9,14 @@
 
 namespace halfspace::passage {
 
-/// Counts what became of a burst's fragments.
-inline void count_z_test(DrawContext& draw, int fragments, int survivors) {
+/// Counts what became of a burst's fragments. `kept`: survivors that the shader does not discard.
+inline void count_z_test(DrawContext& draw, int fragments, int survivors, int kept) {
   EarlyZCounters& counters = draw.counters.early_z;
   const auto passed = static_cast<std::uint64_t>(survivors);
   (draw.early_z.test ? counters.tested : counters.untested) += static_cast<std::uint64_t>(fragments);
   counters.survivors += passed;
-  counters.written += draw.early_z.write ? passed : 0;
+  counters.written += draw.early_z.write ? static_cast<std::uint64_t>(kept) : 0;
+  counters.discarded += static_cast<std::uint64_t>(survivors - kept);
   counters.tiles_killed += survivors == 0 ? 1 : 0;
 }
 
@@ -31,17 +32,45 @@ void complete_codes(const SetupTriangle& triangle, const QuadBurst& burst, const
   }
 }
 
-/// The samples that pass. `stored`: the tile's codes in the surface, null where the test is off; those that
-/// pass are written there. `codes` is filled where the test is on, or where the draw's quads are recorded.
+/// Of the samples of a tile that passed, those that the shader does not discard.
 template <int TileSize>
-TileMask z_test(const SetupTriangle& triangle, const Burst& burst, DrawContext& draw, std::uint32_t* stored,
-                TileCodes<TileSize>& codes) {
-  const TileMask passed = halfspace::z_test<TileSize>(triangle, burst.packet, draw.early_z, stored, codes);
-  count_z_test(draw, burst.fragments, popcount<TileSize>(passed));
+TileMask kept(const TileMask& passed, int tile_x, int tile_y, std::uint32_t triangle,
+              const DrawContext& draw) {
+  return draw.early_z.late
+             ? shader_keeps<TileSize>(draw.discard, passed, draw.draw, triangle, tile_x, tile_y)
+             : passed;
+}
+
+struct Tested {
+  TileMask passed;
+  TileMask kept;  ///< by the shader
+};
+
+/// Tests a burst. `stored`: the tile's codes in the surface, null where the test is off; those that
+/// pass are written there, where the draw does not write late: then write_late() follows. `codes` is filled where the test is on, or where the draw's quads are recorded.
+template <int TileSize>
+Tested z_test(const SetupTriangle& triangle, const Burst& burst, DrawContext& draw, std::uint32_t* stored,
+              TileCodes<TileSize>& codes) {
+  const Coverage& coverage = burst.packet.coverage;
+  Tested tested;
+  tested.passed = halfspace::z_test<TileSize>(triangle, burst.packet, draw.early_z, stored, codes);
+  tested.kept =
+      kept<TileSize>(tested.passed, coverage.tile_x, coverage.tile_y, triangle.triangle, draw);
+  count_z_test(draw, burst.fragments, popcount<TileSize>(tested.passed), popcount<TileSize>(tested.kept));
   if (draw.record_quads) {
     complete_codes<TileSize>(triangle, burst.packet, draw.early_z, codes);
   }
-  return passed;
+  return tested;
+}
+
+/// Writes what the shader keeps of a burst, where its draw is late. Whatever time that takes, no other burst
+/// sees the line before.
+template <int TileSize>
+void write_late(const Tested& tested, const TileCodes<TileSize>& codes, const DrawContext& draw,
+                std::uint32_t* stored) {
+  if (draw.early_z.late) {
+    write_codes<TileSize>(codes.data(), tested.kept, stored);
+  }
 }
 
 }  // namespace halfspace::passage

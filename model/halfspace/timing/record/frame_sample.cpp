@@ -85,6 +85,7 @@ std::vector<StretchCounts> FrameSample::counts(const ZTrace& trace) const {
 SampleTrace FrameSample::trace(const ZTrace& trace) const {
   SampleTrace result;
   result.trace.rows = trace.rows;
+  result.trace.z.late = late(trace.z.late);
   // by row: the miss that noted its time is in the sample; others are not waited for
   std::vector<bool> timed(trace.rows, false);
   std::size_t miss = 0;
@@ -124,6 +125,30 @@ SampleTrace FrameSample::trace(const ZTrace& trace) const {
   }
   result.weight = calibrate(shares, sampled, totals);
   return result;
+}
+
+std::vector<StreamLate> FrameSample::late(const std::vector<StreamLate>& all) const {
+  std::vector<StreamLate> sampled;
+  std::vector<std::uint32_t> before{0};  // by late write of the record: those before it that are in the sample
+  std::size_t at = 0;
+  std::uint32_t access = 0;
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    const std::uint32_t first = stretches_[i].first_access;
+    const std::uint32_t end = i + 1 < stretches_.size() ? stretches_[i + 1].first_access : accesses_;
+    for (; all[at].access < end; ++at) {
+      if (copied_[i]) {
+        sampled.push_back({.access = access + all[at].access - first,
+                           .done = before[all[at].done],
+                           .leaves = all[at].leaves});
+      }
+      if (all[at].leaves) {
+        before.push_back(before.back() + (copied_[i] ? 1 : 0));
+      }
+    }
+    access += copied_[i] ? end - first : 0;
+  }
+  sampled.push_back({.access = kNoBurst});
+  return sampled;
 }
 
 std::uint64_t FrameSample::cycles(const Config& config, const RetimedFrame& retimed,

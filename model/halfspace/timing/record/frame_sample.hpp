@@ -47,6 +47,9 @@ class FrameSample {
   /// `trace`: of the whole record.
   [[nodiscard]] SampleTrace trace(const ZTrace& trace) const;
 
+  /// Of the late writes of the whole record those of the sample.
+  [[nodiscard]] std::vector<StreamLate> late(const std::vector<StreamLate>& all) const;
+
   /// Cycles of the frame on `config`, from those of packets() on it.
   [[nodiscard]] std::uint64_t cycles(const Config& config, const RetimedFrame& retimed,
                                      const SampleTrace& trace) const;

@@ -142,9 +142,14 @@ std::uint64_t longest_job(const Config& config, std::uint32_t most_empty) {
       std::countr_zero(static_cast<unsigned>(tile * tile * 4 / config.z_cache.parts)));
   const auto quads = static_cast<std::size_t>(tile * tile / 4);
   const auto parts = static_cast<std::uint64_t>(config.z_cache.parts);
+  // and all late writes that are out, before it
+  const std::uint64_t late =
+      config.late_z.mode == LateZ::kLate
+          ? m.late_latency + static_cast<std::uint64_t>(config.late_z.queue) * m.test_beats[quads]
+          : 0;
   // up to two walks, the job's own and that after the last job before
   return 2 * (std::uint64_t{most_empty} + 1) + static_cast<std::uint64_t>(sum_of_latencies(config)) + 16 +
-         m.quad_beats[quads] + m.test_beats[quads] +
+         m.quad_beats[quads] + m.test_beats[quads] + late +
          parts * (m.memory_latency + m.read_cycles[line] + m.write_cycles[line] + m.decode_latency +
                   m.encode_latency + 8);
 }

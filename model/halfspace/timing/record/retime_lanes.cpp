@@ -50,6 +50,7 @@ class LaneMachines {
       }
     }
     memory.out = typename Policy::Table(rows);
+    memory.late = typename Policy::Table(kLateRing);
     if (configs_[0].hi_z.enabled) {  // all have the same packets
       memory.hi_z_lag = static_cast<std::uint64_t>(configs_[0].hi_z.lag);
       memory.retired = typename Policy::Table(kHiZRing);
@@ -77,6 +78,7 @@ class LaneMachines {
     fill(all.setup_latency, [](const auto& m) { return m.setup_latency; });
     fill(all.edge_latency, [](const auto& m) { return m.edge_latency; });
     fill(all.lookup_latency, [](const auto& m) { return m.lookup_latency; });
+    fill(all.late_latency, [](const auto& m) { return m.late_latency; });
     fill(all.memory_latency, [](const auto& m) { return m.memory_latency; });
     fill(all.decode_latency, [](const auto& m) { return m.decode_latency; });
     fill(all.encode_latency, [](const auto& m) { return m.encode_latency; });

@@ -131,16 +131,22 @@ ZTrace trace_lines(const FrameRecord& record, const ZCacheShape& shape) {
                                             {.touched = any[a.touched()],
                                              .written = any[a.written()],
                                              .sure = all[a.sure()],
-                                             .shifts = a.shifts()});
+                                             .shifts = a.shifts(),
+                                             .late = a.late(),
+                                             .late_write = a.late_write()});
         for (const ZMiss& miss : misses.parts()) {
           trace.z.misses.push_back(miss);
           trace.z.burst.push_back(access);
+        }
+        if (misses.late_done != 0 || a.late_write()) {
+          trace.z.late.push_back({.access = access, .done = misses.late_done, .leaves = a.late_write()});
         }
         ++access;
       }
     }
   }
   trace.z.burst.push_back(kNoBurst);
+  trace.z.late.push_back({.access = kNoBurst});
   cache.flush([&](std::uint32_t slot, std::uint32_t /*line*/, std::uint32_t bytes) {
     trace.flush.push_back({.slot = slot, .bytes = bytes});
   });
@@ -161,6 +167,7 @@ StreamView whole_stream(const FrameRecord& record, const ZTrace& trace) {
           .accesses = record.packets.accesses,
           .misses = trace.z.misses,
           .miss_burst = trace.z.burst,
+          .late = trace.z.late,
           .tiles = {}};
 }
 

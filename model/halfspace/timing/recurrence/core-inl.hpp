@@ -51,6 +51,8 @@ struct RecurrenceMemory {
   std::array<typename TimePolicy::Credits, kFifos - kSetupFifos> fifos;  ///< the others
   typename TimePolicy::Table out;  ///< by line of memory: first cycle in which it may be asked for again
   std::optional<std::uint64_t> hi_z_lag;  ///< where the machine has hi_z
+  typename TimePolicy::Table late;        ///< by late write, in a ring: the cycle from which it may be done
+  std::array<std::uint8_t, kLateRing> late_quads{};  ///< of its burst
   typename TimePolicy::Table
       retired;  ///< where it has: by job, in a ring, the cycle in which hi_z can see it
 };
@@ -167,12 +169,17 @@ class RecurrenceCore {
 
   /// `cycles`: of the clear itself.
   HWY_INLINE void fast_clear(S cycles) {
+    write_all_late();
     clear_next_ = drained() + cycles;
     cull_next_ = later(cull_next_, clear_next_);
   }
 
   /// Writes back the dirty lines of the z cache, which has `lines`, and gives the cycles of the frame.
   HWY_INLINE S flush(std::span<const ZFlush> dirty, std::uint32_t lines) {
+    write_all_late();
+    if constexpr (Probe::kLooks) {
+      tell_of_late();
+    }
     T scan_next = later(near(idle()), hi_z_out_);
     std::uint32_t seen = 0;
     for (const ZFlush& line : dirty) {
@@ -330,8 +337,13 @@ class RecurrenceCore {
 
   /// Of all times behind setup.
   [[nodiscard]] HWY_INLINE T latest() const {
+    return later(later(in_pipe(), late_next_), later(y_next_, later(filled_next_, written_next_)));
+  }
+
+  /// Of the stages from block_walker to z_test.
+  [[nodiscard]] HWY_INLINE T in_pipe() const {
     return later(later(later(later(block_next_, hi_z_next_), tile_next_), later(e_next_, g_next_)),
-                 later(later(later(f_next_, b_next_), y_next_), later(filled_next_, written_next_)));
+                 later(f_next_, b_next_));
   }
 
   /// Where times are far from the clock, moves it to `at`, which no packet to come is before; gives `at` on
@@ -372,6 +384,8 @@ class RecurrenceCore {
     f_next_ = Clock::since(f_next_, by);
     filled_next_ = Clock::since(filled_next_, by);
     b_next_ = Clock::since(b_next_, by);
+    late_begun_ = Clock::since(late_begun_, by);
+    late_next_ = Clock::since(late_next_, by);
     written_next_ = Clock::since(written_next_, by);
     y_ = Clock::since(y_, by);
     y_next_ = Clock::since(y_next_, by);
@@ -380,6 +394,7 @@ class RecurrenceCore {
     }
     memory_->out.move_clock(by);
     memory_->retired.move_clock(by);
+    memory_->late.move_clock(by);
     clock_.move(by);
   }
 
@@ -395,7 +410,19 @@ class RecurrenceCore {
     fifo<Fifo::kQuadGenerator>().give(bursts_, moved);
     f_next_ = moved;
     const Misses misses = work.misses;
-    T b = later(later(f + machine().lookup_latency, b_next_), fifo<Fifo::kEarlyZ>().usable(bursts_));
+    const T codes = f + machine().lookup_latency;
+    if constexpr (Probe::kLooks) {
+      tell_of_late();
+    }
+    T test_next = b_next_;
+    if (HWY_UNLIKELY(work.late_done != 0)) {
+      test_next = write_late(work.late_done, later(codes, b_next_));
+      if constexpr (Probe::kLooks) {
+        probe_->wait(Stage::kZTest, stall::kNoInput, b_next_, later(codes, b_next_));
+        probe_->wait(Stage::kZTest, stall::kTestLate, later(codes, b_next_), test_next);
+      }
+    }
+    T b = later(later(codes, test_next), fifo<Fifo::kEarlyZ>().usable(bursts_));
     T filled_next{};
     T slots{};
     if (!misses.empty()) {
@@ -406,8 +433,7 @@ class RecurrenceCore {
     const T beats = machine().test_beats[static_cast<std::size_t>(work.quads)];
     if constexpr (Probe::kLooks) {
       probe_->link(Link::kEarlyZPending, bursts_, f, b + beats);
-      probe_->template split<4>(Stage::kZTest, b_next_, {f + machine().lookup_latency, filled_next, slots, b},
-                                beats);
+      probe_->template split<5>(Stage::kZTest, test_next, {codes, test_next, filled_next, slots, b}, beats);
       probe_->note(&PacketTimes::b, b);
     }
     b_next_ = b + beats;
@@ -422,6 +448,38 @@ class RecurrenceCore {
       probe_->note(&PacketTimes::y, y_);
     }
     fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
+    if (HWY_UNLIKELY(work.late)) {
+      memory_->late.set(static_cast<std::uint32_t>(late_given_ % kLateRing), y_next_ + machine().late_latency);
+      memory_->late_quads[late_given_++ % kLateRing] = static_cast<std::uint8_t>(work.quads);
+    }
+  }
+
+  /// Late writes up to the frame's number `end`, from cycle `from` on; gives the cycle after them.
+  HWY_INLINE T write_late(std::uint64_t end, T from) {
+    for (; late_written_ < end; ++late_written_) {
+      const std::size_t at = late_written_ % kLateRing;
+      from = later(from, memory_->late.get(static_cast<std::uint32_t>(at))) +
+             machine().test_beats[memory_->late_quads[at]];
+    }
+    return from;
+  }
+
+  /// All that are out, when the stages before have nothing left to do and a clear or the flush waits.
+  HWY_INLINE void write_all_late() {
+    if (late_given_ != late_written_) {
+      const T idle_from = near(later(decide_next_, clear_next_));
+      late_begun_ = later(later(in_pipe(), hi_z_out_), idle_from);
+      late_next_ = write_late(late_given_, late_begun_);
+    }
+  }
+
+  /// Tells of what write_all_late() did since the last burst: the cycles belong to whom the next one does.
+  void tell_of_late() {
+    if (late_next_ > b_next_) {
+      probe_->wait(Stage::kZTest, stall::kNoInput, b_next_, late_begun_);
+      probe_->wait(Stage::kZTest, stall::kTestLate, late_begun_, late_next_);
+      b_next_ = late_next_;
+    }
   }
 
   /// Resolves the missing parts, one after the other, and sends the requests of those to fetch; gives the
@@ -514,6 +572,8 @@ class RecurrenceCore {
   T f_next_{};
   T filled_next_{};
   T b_next_{};
+  T late_begun_{};  ///< all that was out was written before a clear: from this cycle on
+  T late_next_{};   ///< the cycle after
   T written_next_{};
   T y_{};
   T y_next_{};
@@ -533,6 +593,8 @@ class RecurrenceCore {
   std::array<Left, kHiZDepth> left_before_{};  ///< hi_z at the ends of the last blocks, the oldest first
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;
+  std::uint64_t late_given_ = 0;
+  std::uint64_t late_written_ = 0;
   std::uint64_t fills_ = 0;
   std::uint64_t writes_ = 0;
 };

@@ -23,6 +23,7 @@ inline RecurrenceMemory<OneMachine> recurrence_memory(const Config& config, std:
     fifo = Credits(capacity[i]);
   }
   memory.out = TimeTable(memory_lines);
+  memory.late = TimeTable(kLateRing);
   if (config.hi_z.enabled) {
     memory.hi_z_lag = static_cast<std::uint64_t>(config.hi_z.lag);
     memory.retired = TimeTable(kHiZRing);

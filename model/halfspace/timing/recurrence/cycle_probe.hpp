@@ -117,8 +117,9 @@ class CycleProbe {
     }
   }
 
-  FrameCycles finish(Cycle cycles) {
-    close(begin_);  // no stage moved any more, but memory did
+  /// `at`: how far the machine is after the flush.
+  FrameCycles finish(Cycle cycles, const Progress<Cycle>& at) {
+    close(at);
     FrameCycles frame{.cycles = cycles, .stats = std::move(outside_), .draws = std::move(draws_)};
     CycleStats& sum = frame.stats;
     for (const DrawCycles& draw : frame.draws) {

@@ -23,6 +23,8 @@ constexpr std::uint64_t later(std::uint64_t a, std::uint64_t b) { return std::ma
 struct JobWork {
   int quads = 0;                    ///< 0: no sample is covered, and nothing leaves the quad generator
   std::span<const ZMiss> misses{};  ///< the parts of its tile that the z cache did not have
+  std::uint32_t late_done = 0;      ///< late writes of the frame that are done before it is tested
+  bool late = false;                ///< it leaves one
 };
 
 /// Quads of the largest tile.
@@ -33,6 +35,9 @@ inline constexpr std::size_t kMostLineBytesLog2 = 10;
 
 /// Jobs that may be under way between hi_z and what it sees: the lag, and the tiles of the blocks under way.
 inline constexpr std::uint64_t kHiZRing = 2048;
+
+/// Late writes that may be out, and more.
+inline constexpr std::size_t kLateRing = 64;
 
 /// The first FIFOs are those of setup.
 inline constexpr std::size_t kSetupFifos = static_cast<std::size_t>(Fifo::kSetup) + 1;
@@ -50,6 +55,7 @@ struct Machine {
   T lookup_latency;  ///< from the lookup to the test
   T memory_latency;
   T decode_latency;  ///< from the last bytes of a line until it is there
+  T late_latency;    ///< from the cycle after the last beat at the sink until a late write may be done
   T encode_latency;  ///< from the write buffer until memory may take a line
 };
 
@@ -71,6 +77,7 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   m.lookup_latency = static_cast<std::uint64_t>(latency(Link::kEarlyZPending, config));
   m.memory_latency = static_cast<std::uint64_t>(config.memory.latency);
   m.decode_latency = static_cast<std::uint64_t>(decode_cycles(config));
+  m.late_latency = static_cast<std::uint64_t>(config.late_z.latency);
   m.encode_latency = static_cast<std::uint64_t>(encode_cycles(config));
   return m;
 }

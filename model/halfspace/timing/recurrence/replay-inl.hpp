@@ -39,18 +39,24 @@ struct StreamCursor {
   const StreamJob* job;
   const ZMiss* miss;
   const std::uint32_t* miss_burst;
+  const StreamLate* late;
   std::uint32_t access = 0;
   bool continues_triangle;
 };
 
-/// The misses of the next access.
-HWY_INLINE std::span<const ZMiss> next_misses(StreamCursor& at) {
+/// What the z cache says to the next access.
+HWY_INLINE void next_access(StreamCursor& at, JobWork& work) {
   const ZMiss* const first = at.miss;
   for (; *at.miss_burst == at.access; ++at.miss_burst) {
     ++at.miss;
   }
+  work.misses = {first, at.miss};
+  if (HWY_UNLIKELY(at.late->access == at.access)) {
+    work.late_done = at.late->done;
+    work.late = at.late->leaves;
+    ++at.late;
+  }
   ++at.access;
-  return {first, at.miss};
 }
 
 /// The triangles of a segment; `open`: it goes on in the next part. Works with copies: a function without
@@ -75,7 +81,7 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
       for (const StreamJob* const jobs_end = at.job + at.block->jobs(); at.job != jobs_end; ++at.job) {
         JobWork work{.quads = *at.job, .misses = {}};
         if (segment.touches_depth != 0 && work.quads != 0) {
-          work.misses = next_misses(at);
+          next_access(at, work);
         }
         hooks.job(static_cast<std::size_t>(at.job - part.jobs.data()));
         core.job(work);
@@ -111,6 +117,7 @@ void replay(const StreamView& part, Core& core, Hooks& hooks, bool& bursts, cons
                   .job = part.jobs.data(),
                   .miss = part.misses.data(),
                   .miss_burst = part.miss_burst.data(),
+                  .late = part.late.data(),
                   .continues_triangle = part.continues_triangle};
   for (const StreamSegment& segment : part.segments) {
     if (segment.kind == StreamSegment::Kind::kFastClear) {

@@ -40,7 +40,7 @@ class RecurrenceReader final : public StreamReader {
     cycles_ = core_.flush(dirty, static_cast<std::uint32_t>(config_.z_cache.lines));
   }
 
-  FrameCycles finish() { return probe_.finish(cycles_); }
+  FrameCycles finish() { return probe_.finish(cycles_, core_.progress()); }
 
  private:
   struct Hooks : ReplayHooks {

@@ -26,12 +26,14 @@ Driver::Driver(const Frame& frame, RunState& run, PortListener& listener)
       listener_(listener),
       source_(frame, run.config, run.options.watch.observer, run.result.surfaces, run.result, run.draws),
       before_(run.config, run.report),
-      longest_rest_(kLongestRest + 4 * static_cast<Cycle>(run.config.memory.latency)) {
+      longest_rest_(kLongestRest +
+                    4 * static_cast<Cycle>(run.config.memory.latency + run.config.late_z.latency)) {
   const int tile_size = run.config.tile_walker.tile_size;
   run.in.triangle.resize(words_for(packed_bits<ScreenTrianglePacket>(run.widths)));
   run.in.state.resize(words_for(packed_bits<DrawStatePacket>(run.widths)));
   run.in.fill.resize(words_for(
       8 * std::min(run.config.memory.read_bytes, tile_size * tile_size * 4 / run.config.z_cache.parts)));
+  run.in.late_keep.resize(words_for(tile_size * tile_size));
 }
 
 void Driver::run() {
@@ -68,6 +70,7 @@ void Driver::step() {
   offer();
   listener_.offer_fill();
   in.beat_ready = listener_.sink_ready();
+  listener_.answer_late();
   run_.pipeline.settle(in, run_.out);
   ++run_.rest;
   begin_clear_or_flush();
@@ -192,7 +195,7 @@ void Driver::end_clear_or_flush() {
 void Driver::check_counter(std::size_t stage, std::size_t activity, std::uint64_t count) {
   PipelineInputs& in = run_.in;
   in.counter_select = static_cast<std::uint32_t>(stage << kActivityBits | activity);
-  in.triangle_valid = in.clear_valid = in.flush = in.fill_valid = false;
+  in.triangle_valid = in.clear_valid = in.flush = in.fill_valid = in.late_valid = false;
   run_.pipeline.settle(in, run_.out);
   run_.meter.cycle(run_.out.activity);
   clock_edge();

@@ -18,6 +18,7 @@ class PortListener {
   // Before the cycle settles.
   virtual void offer_fill() = 0;
   [[nodiscard]] virtual bool sink_ready() = 0;
+  virtual void answer_late() = 0;
   // What happens in it.
   virtual void begin_packets() = 0;
   virtual void take_triangle(const ScreenTriangle& triangle, DrawContext& draw,

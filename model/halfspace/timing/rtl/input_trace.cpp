@@ -15,13 +15,14 @@ constexpr std::uint8_t kFill = 1u << 3;
 constexpr std::uint8_t kClear = 1u << 4;
 constexpr std::uint8_t kFlush = 1u << 5;
 constexpr std::uint8_t kSelect = 1u << 6;  ///< the selection of the counter is not 0
+constexpr std::uint8_t kLate = 1u << 7;
 
 std::uint8_t flags_of(const PipelineInputs& in) {
   const auto flag = [](bool on, std::uint8_t bit) { return on ? bit : std::uint8_t{0}; };
   return static_cast<std::uint8_t>(flag(in.reset, kReset) | flag(in.triangle_valid, kTriangle) |
                                    flag(in.beat_ready, kBeatReady) | flag(in.fill_valid, kFill) |
                                    flag(in.clear_valid, kClear) | flag(in.flush, kFlush) |
-                                   flag(in.counter_select != 0, kSelect));
+                                   flag(in.counter_select != 0, kSelect) | flag(in.late_valid, kLate));
 }
 
 /// Calls words(vector) for each payload and word(number) for each number that a cycle with `flags` has.
@@ -33,6 +34,9 @@ void visit(Inputs& in, std::uint8_t flags, Words&& words, Word&& word) {
   }
   if ((flags & kFill) != 0) {
     words(in.fill);
+  }
+  if ((flags & kLate) != 0) {
+    words(in.late_keep);
   }
   if ((flags & kClear) != 0) {
     word(in.clear_first);
@@ -98,6 +102,7 @@ std::uint64_t InputTrace::play(VerilatedPipeline& pipeline) const {
     in.triangle_valid = (flags & kTriangle) != 0;
     in.beat_ready = (flags & kBeatReady) != 0;
     in.fill_valid = (flags & kFill) != 0;
+    in.late_valid = (flags & kLate) != 0;
     in.clear_valid = (flags & kClear) != 0;
     in.flush = (flags & kFlush) != 0;
     in.counter_select = 0;

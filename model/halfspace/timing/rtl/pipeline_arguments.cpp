@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 namespace halfspace::rtl {
 namespace {
 
 std::string value_text(int value) { return std::to_string(value); }
-std::string value_text(DepthInterpolator value) { return std::to_string(static_cast<int>(value)); }
+template <class Enumeration>
+  requires std::is_enum_v<Enumeration>
+std::string value_text(Enumeration value) {
+  return std::to_string(static_cast<int>(value));
+}
 // A bit must be written as one: Verilator warns of a wider number.
 std::string value_text(bool value) { return value ? "1'b1" : "1'b0"; }
 

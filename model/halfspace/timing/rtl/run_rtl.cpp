@@ -66,6 +66,7 @@ class RtlRun final : public PortListener {
 
   void offer_fill() override { memory_.offer_fill(); }
   [[nodiscard]] bool sink_ready() override { return sink_.ready(); }
+  void answer_late() override { sink_.answer_late(); }
   void begin_packets() override { scoreboard_.begin_packets(); }
   void take_triangle(const ScreenTriangle& triangle, DrawContext& draw,
                      const DrawStatePacket& state) override {

@@ -306,15 +306,19 @@ class Scoreboard {
     TileCodes<TileSize> codes{};
     // Not the passage: what the test counts is counted of what the RTL gives.
     const TileMask passed = z_test<TileSize>(*token.triangle, burst, draw.early_z, stored, codes);
+    const passage::Tested tested{.passed = passed,
+                                 .kept = passage::kept<TileSize>(passed, coverage.tile_x, coverage.tile_y,
+                                                                 token.triangle->triangle, draw)};
     passage::complete_codes<TileSize>(*token.triangle, burst, draw.early_z, codes);
     const int parts = run_.config.z_cache.parts;
     HiZUpdate update;
     if (const std::uint8_t touched = passage::touched_parts<TileSize>(coverage, draw, parts)) {
-      update = hi_z_update<TileSize>(stored, touched, parts);
+      update = passage::hi_z_update<TileSize>(draw, token.triangle->depth, stored, touched, parts);
+      passage::write_late<TileSize>(tested, codes, draw, stored);
       const ZSurface& place = run_.places[draw.surface];
       const ZMisses misses = passage::z_cache(
           z_cache_, place, coverage,
-          passage::z_access<TileSize>(coverage, passed, stored, draw, place, run_.config), draw);
+          passage::z_access<TileSize>(coverage, tested, stored, draw, place, run_.config), draw);
       for (const ZMiss& miss : misses.parts()) {
         if (miss.fetch) {
           memory_.expect_read(miss.line, miss.bytes);

@@ -71,6 +71,24 @@ class TestedSink {
     beats_.pop_front();
   }
 
+  /// The shader answers for the late burst that it is through with in this cycle.
+  void answer_late() {
+    run_.in.late_valid = !answers_.empty() && answers_.front().cycle == run_.cycle;
+    if (run_.in.late_valid) {
+      std::ranges::fill(run_.in.late_keep, 0);
+      const TileMask& kept = answers_.front().kept;
+      for (int bit = 0; bit < TileSize * TileSize; ++bit) {
+        const int x = bit % TileSize;
+        const int y = bit / TileSize;
+        const int quad = y / 2 * (TileSize / 2) + x / 2;
+        const auto at = static_cast<std::size_t>(4 * quad + y % 2 * 2 + x % 2);
+        const std::uint64_t keep = kept.word[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1;
+        run_.in.late_keep[at / 32] |= static_cast<std::uint32_t>(keep) << (at % 32);
+      }
+      answers_.pop_front();
+    }
+  }
+
   void expect_no_more() { run_.expect_no_more(beats_, "early_z"); }
 
  private:
@@ -98,13 +116,20 @@ class TestedSink {
     const SetupTriangle& triangle = *token.triangle;
     run_.meter.give_back(Link::kEarlyZ, run_.cycle + 1);
     run_.meter.burst_left(draw, run_.cycle);
-    passage::count_z_test(draw, popcount(covered_), popcount(passed_));
+    const passage::Tested tested{
+        .passed = passed_,
+        .kept = passage::kept<TileSize>(passed_, beat.tile_x, beat.tile_y, triangle.triangle, draw)};
+    passage::count_z_test(draw, popcount(covered_), popcount(passed_), popcount(tested.kept));
+    if (draw.early_z.late && any(passed_)) {
+      answers_.push_back({.cycle = run_.cycle + static_cast<std::uint64_t>(run_.config.late_z.latency),
+                          .kept = tested.kept});
+    }
     Surface* const surface = run_.surface(draw);
     if (surface != nullptr &&
         (beat.tile_x >= surface->codes.tiles_x() || beat.tile_y >= surface->codes.tiles_y())) {
       return;  // its packet differs, and is reported
     }
-    passage::sink<TileSize>(covered_, passed_, beat.tile_x, beat.tile_y, triangle.triangle, draw, surface);
+    passage::sink<TileSize>(covered_, tested, beat.tile_x, beat.tile_y, triangle.triangle, draw, surface);
     if (draw.record_quads) {
       const QuadBurst burst =
           quad_generator<TileSize>({.tile_x = beat.tile_x, .tile_y = beat.tile_y, .mask = covered_});
@@ -124,6 +149,11 @@ class TestedSink {
   std::deque<BurstToken> bursts_;      ///< in early_z
   std::deque<std::uint64_t> visible_;  ///< when each burst that is tested can be seen here
   std::uint64_t bursts_taken_ = 0;
+  struct Answer {
+    std::uint64_t cycle;
+    TileMask kept;
+  };
+  std::deque<Answer> answers_;  ///< of bursts that are in the shader
 
   // Of the burst that comes.
   bool in_burst_ = false;

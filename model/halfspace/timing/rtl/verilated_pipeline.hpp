@@ -20,6 +20,7 @@ struct PipelineInputs {
   bool reset = false;
   bool triangle_valid = false;
   bool beat_ready = false;
+  bool late_valid = false;
   bool fill_valid = false;
   bool clear_valid = false;
   bool flush = false;
@@ -31,6 +32,7 @@ struct PipelineInputs {
   std::vector<std::uint32_t> triangle;  ///< screen_triangle_t; all payloads in packed words
   std::vector<std::uint32_t> state;     ///< draw_state_t
   std::vector<std::uint32_t> fill;
+  std::vector<std::uint32_t> late_keep;  ///< of the tile, 4 bits a quad
 };
 
 /// Memory always takes requests and writes.

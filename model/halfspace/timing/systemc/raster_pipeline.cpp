@@ -46,7 +46,7 @@ struct RasterPipeline::Units {
         edge_evaluator("edge_evaluator", run),
         quad_generator("quad_generator", run, hi_z.returns),
         early_z("early_z", run, hi_z.returns, base),
-        sink("sink", run) {
+        sink("sink", run, early_z.test.answers) {
     source.out(setup);
     source.depth(early_z.control);
     setup.out(setup_link);
@@ -147,12 +147,20 @@ void RasterPipeline::begin_frame() {
   units_->begin_frame();
 }
 
-Cycle RasterPipeline::idle_from() const {
-  Cycle from = units_->sink.next();
+Cycle RasterPipeline::stages_idle_from() const {
+  Cycle from = 0;
   for (const StageMeter* const meter : run_.meters) {
     from = std::max(from, meter->next());
   }
   return from;
+}
+
+void RasterPipeline::write_all_late(Cycle since) {
+  late_next_ = units_->early_z.test.write_all_late(std::max({since, stages_idle_from(), hi_z_out()}));
+}
+
+Cycle RasterPipeline::idle_from() const {
+  return std::max({units_->sink.next(), stages_idle_from(), late_next_});
 }
 
 Cycle RasterPipeline::hi_z_out() const { return units_->hi_z.blocks_out(); }
@@ -162,6 +170,7 @@ Cycle RasterPipeline::clear_hi_z(std::uint32_t surface, std::uint32_t code, Cycl
 }
 
 void RasterPipeline::end_frame(Cycle cycles) {
+  units_->early_z.test.end_frame();
   for (CreditLinkBase* const fifo : run_.fifos) {
     fifo->end_frame(cycles);
   }

@@ -71,9 +71,12 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   TimedResult take_result();
 
  private:
+  /// First cycle in which no stage has anything left to do but late writes; for when the pipe is empty.
+  [[nodiscard]] Cycle stages_idle_from() const;
   void begin_frame() override;
   void end_frame(Cycle cycles) override;
   [[nodiscard]] Cycle idle_from() const override;
+  void write_all_late(Cycle since) override;
   [[nodiscard]] Cycle hi_z_out() const override;
   Cycle clear_hi_z(std::uint32_t surface, std::uint32_t code, Cycle idle) override;
 
@@ -87,6 +90,7 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   RunState run_;
   std::unique_ptr<Units> units_;
   Watch watch_;
+  Cycle late_next_ = 0;  ///< after the late writes before the last clear
   FrameCycles cycles_;  ///< of the frame that ended last
   bool bound_ = false;
   std::vector<std::unique_ptr<TimedSignal>> signals_;

@@ -8,7 +8,8 @@
 
 namespace halfspace::systemc {
 
-Sink::Sink(const sc_core::sc_module_name& name, RunState& run) : sc_module(name), in("in"), run_(run) {
+Sink::Sink(const sc_core::sc_module_name& name, RunState& run, ShaderAnswers& answers)
+    : sc_module(name), in("in"), run_(run), answers_(answers) {
   SC_THREAD(take);
   set_stack_size(kStackBytes);
 }
@@ -25,6 +26,9 @@ void Sink::take() {
       const Cycle last = at + burst_beats - 1;
       const TestedToken token = in->take(last);
       next_ = last + 1;
+      if (token.draw->early_z.late && any(token.result.passed)) {
+        answers_.answer(next_ + static_cast<Cycle>(run_.config.late_z.latency));
+      }
       run_.record(&PacketTimes::y, at);
       run_.book.burst_left(*token.draw, last);
       with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) { show<size()>(token, at); });
@@ -39,11 +43,11 @@ void Sink::show(const TestedToken& token, Cycle first_beat) {
   const QuadBurst& burst = token.burst.burst.packet;
   const Coverage& coverage = burst.coverage;
   const SetupTriangle& triangle = *token.burst.triangle;
-  passage::sink<TileSize>(coverage.mask, token.passed, coverage.tile_x, coverage.tile_y, triangle.triangle,
+  passage::sink<TileSize>(coverage.mask, token.result, coverage.tile_x, coverage.tile_y, triangle.triangle,
                           draw, run_.surface(draw));
   if (draw.record_quads) {
     const auto width = static_cast<Cycle>(run_.config.early_z.quads_per_cycle);
-    passage::show_quads<TileSize>(burst, token.passed, token.codes.data(), triangle, draw,
+    passage::show_quads<TileSize>(burst, token.result.passed, token.codes.data(), triangle, draw,
                                   [&](QuadEvent& quad, std::size_t number) {
                                     quad.cycle = first_beat + number / width;
                                     run_.observer->quad(quad);

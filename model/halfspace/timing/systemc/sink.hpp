@@ -5,6 +5,7 @@
 #include <systemc>
 
 #include "halfspace/timing/systemc/credit_link.hpp"
+#include "halfspace/timing/systemc/shader_answers.hpp"
 #include "halfspace/timing/systemc/tokens.hpp"
 
 namespace halfspace::systemc {
@@ -12,7 +13,8 @@ namespace halfspace::systemc {
 class Sink : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Sink);
-  Sink(const sc_core::sc_module_name& name, RunState& run);
+  /// Tells `answers` when the shader is through with a burst.
+  Sink(const sc_core::sc_module_name& name, RunState& run, ShaderAnswers& answers);
 
   sc_core::sc_port<CreditIn<TestedToken>> in;
 
@@ -26,6 +28,7 @@ class Sink : public sc_core::sc_module {
   void show(const TestedToken& token, Cycle first_beat);
 
   RunState& run_;
+  ShaderAnswers& answers_;
   Cycle next_ = 0;
 };
 

@@ -69,6 +69,7 @@ void Source::begin_frame() {
 /// Waits for the first cycle in which everything has left the pipe, and returns it.
 Cycle Source::drain() {
   run_.in_pipe.wait_until_empty();
+  control_.write_all_late(next_arrival_);
   const Cycle written = depth->wait_until_written();
   const Cycle from = std::max({control_.idle_from(), written, next_arrival_});
   run_.clock.wait_until(from);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/tokens.hpp"
 #include "halfspace/timing/systemc/sim_clock.hpp"
 #include "halfspace/units/z_cache.hpp"
@@ -48,7 +49,7 @@ struct WriteToken {
 struct TestedToken {
   DrawContext* draw = nullptr;
   BurstToken burst;
-  TileMask passed;
+  passage::Tested result;
   std::vector<std::uint32_t> codes;  ///< of the tile, where quads are recorded
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "halfspace/machine/passage/hi_z.hpp"
 #include "halfspace/machine/passage/z_lookup.hpp"
 #include "halfspace/machine/passage/z_test.hpp"
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/machine/tile_size.hpp"
 #include "halfspace/timing/contract.hpp"
 
@@ -17,7 +19,13 @@ ZTest::ZTest(const sc_core::sc_module_name& name, RunState& run, JobReturns& ret
   SC_THREAD(write_back);
 }
 
-void ZTest::begin_frame() { next_ = 0; }
+void ZTest::begin_frame() {
+  next_ = 0;
+  order_ = LateWrites(z_cache_shape(run_.config).late_writes);
+  late_.clear();
+  late_begun_ = late_next_ = 0;
+  answers.begin_frame();
+}
 
 void ZTest::test_bursts() {
   run_.guard([&] {
@@ -26,7 +34,10 @@ void ZTest::test_bursts() {
       const Cycle visible = cache_.pending.visible();
       const PendingToken& head = cache_.pending.front();
       meter_.work_on(head.draw);
+      tell_of_late();
       meter_.stalled(stall::kNoInput, visible);
+      next_ = std::max(next_, visible);
+      make_way(head);
       meter_.stalled(stall::kTestFill, head.there);
       const int dirty = replace_lines(head);
       meter_.waits_for(stall::kTestWriteBuffer);
@@ -48,6 +59,77 @@ void ZTest::test_bursts() {
           at);
     }
   });
+}
+
+/// Does the late writes that go before the burst.
+void ZTest::make_way(const PendingToken& token) {
+  ZSlots slots;
+  for (int part = 0; part < run_.config.z_cache.parts; ++part) {
+    if ((token.touched >> part & 1) != 0) {
+      slots.add(part, token.slot[static_cast<std::size_t>(part)]);
+    }
+  }
+  meter_.waits_for(stall::kTestLate);
+  const std::uint32_t done = order_.done();
+  order_.make_way(slots, token.draw->early_z.late);
+  for (std::uint32_t left = order_.done() - done; left != 0; --left) {
+    write_late();
+  }
+  meter_.stalled(stall::kTestLate, next_);
+}
+
+/// Does the oldest one.
+void ZTest::write_late() {
+  const LateWrite& late = late_.front();
+  next_ = std::max(next_, answers.take()) +
+          static_cast<Cycle>(beats(late.quads, run_.config.early_z.quads_per_cycle));
+  with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) { write<size()>(late); });
+  late_.pop_front();
+}
+
+template <int TileSize>
+void ZTest::write(const LateWrite& late) {
+  const int parts = run_.config.z_cache.parts;
+  const auto samples = static_cast<std::ptrdiff_t>(TileSize * TileSize / parts);
+  const std::uint8_t written = parts_of_mask<TileSize>(late.kept, parts);
+  TileCodes<TileSize> tile{};
+  for (int part = 0; part < parts; ++part) {
+    if ((written >> part & 1) == 0) {
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(part);
+    std::vector<std::uint32_t>& line = cache_.codes[late.slots.slot[i]];
+    const auto first = tile.begin() + part * samples;
+    std::ranges::copy(line, first);
+    write_codes<TileSize>(late.codes.data(), late.kept, tile.data());
+    std::copy(first, first + samples, line.begin());
+    cache_.lines.mark_written(late.slots.slot[i], cache_.shift(late.line[i], line));
+  }
+}
+
+Cycle ZTest::write_all_late(Cycle from) {
+  if (late_.empty()) {
+    return late_next_;
+  }
+  late_begun_ = next_ = std::max(next_, from);
+  order_.finish_all();
+  while (!late_.empty()) {
+    write_late();
+  }
+  return late_next_ = next_;
+}
+
+/// What write_all_late() did since the last burst belongs to whom the next one does.
+void ZTest::tell_of_late() {
+  if (late_next_ > meter_.next()) {
+    meter_.stalled(stall::kNoInput, late_begun_);
+    meter_.stalled(stall::kTestLate, late_next_);
+  }
+}
+
+void ZTest::end_frame() {
+  meter_.work_on(nullptr);
+  tell_of_late();
 }
 
 /// Gives the slots of the missing parts to their lines, and returns how many dirty ones have to leave. The
@@ -129,8 +211,10 @@ TestedToken ZTest::test(PendingToken& token) {
     }
   };
   for_each_touched([&](std::size_t, auto line, auto tile) { std::copy_n(line, samples, tile); });
-  const TileMask passed = passage::z_test<TileSize>(*token.burst.triangle, burst, draw, stored.data(), codes);
-  const std::uint8_t written = passage::written_parts<TileSize>(passed, draw, parts);
+  const passage::Tested result =
+      passage::z_test<TileSize>(*token.burst.triangle, burst, draw, stored.data(), codes);
+  const std::uint8_t written =
+      draw.early_z.late ? std::uint8_t{0} : passage::written_parts<TileSize>(result.kept, draw, parts);
   for_each_touched([&](std::size_t part, auto line, auto tile) {
     if ((written >> part & 1) != 0) {
       std::copy_n(tile, samples, line);
@@ -139,9 +223,22 @@ TestedToken ZTest::test(PendingToken& token) {
     }
   });
   if (run_.config.hi_z.enabled) {
-    returns_.tested(hi_z_update<TileSize>(stored.data(), token.touched, parts), next_ - 1);
+    returns_.tested(passage::hi_z_update<TileSize>(draw, token.burst.triangle->depth, stored.data(),
+                                                   token.touched, parts),
+                    next_ - 1);
   }
-  TestedToken tested{.draw = &draw, .burst = std::move(token.burst), .passed = passed, .codes = {}};
+  if (draw.early_z.late && any(result.passed)) {
+    LateWrite& late = late_.emplace_back();
+    late.quads = burst.quads;
+    late.kept = result.kept;
+    late.codes.assign(codes.begin(), codes.end());
+    for_each_touched([&](std::size_t part, auto, auto) {
+      late.slots.add(static_cast<int>(part), token.slot[part]);
+      late.line[part] = cache_.line_of(token, static_cast<int>(part));
+    });
+    order_.add(late.slots);
+  }
+  TestedToken tested{.draw = &draw, .burst = std::move(token.burst), .result = result, .codes = {}};
   if (draw.record_quads) {
     tested.codes.assign(codes.begin(), codes.end());
   }
