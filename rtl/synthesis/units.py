@@ -78,7 +78,11 @@ def _walker(name, switch) -> Unit:
             of(8, 16),
             of(8, 64),
             of(8, 32, **{switch: "1'b0"}),
-            *((of(8, 32, HiZ="1'b1"),) if name == "block_walker" else ()),
+            *(
+                (of(8, 32, HiZ="1'b1"), of(8, 32, SampleReject="1'b1"))
+                if name == "block_walker"
+                else ()
+            ),
             of(8, 32, 4, False),
             of(4, 8, 5, False, FifoDepth=2),
             of(16, 64, 6, False, FifoDepth=8),

@@ -195,6 +195,37 @@ void check_orders(const std::string& name) {
   check("backwards", [](Frame& f) { whatif::reverse(f); });
 }
 
+/// Late draws: with no discard the depth of `opaque`, with all discarded that of `no_write`, with hi_z too.
+void check_late(const std::string& name) {
+  const Frame frame = load_frame(name);
+  const auto run = [&frame](LateZ mode, int discard, bool hi_z) {
+    Config config;
+    config.late_z.mode = mode;
+    config.late_z.discard = discard;
+    config.hi_z.enabled = hi_z;
+    return run_functional(frame, config);
+  };
+  const auto check = [&name](const FrameResult& ours, const FrameResult& other) {
+    CAPTURE(name);
+    for (std::size_t s = 0; s < other.surfaces.size(); ++s) {
+      CHECK(halfspace::testing::image_difference("surface " + std::to_string(s), ours.surfaces[s].codes,
+                                                 other.surfaces[s].codes) == "");
+    }
+    CHECK(ours.counters.early_z.survivors == other.counters.early_z.survivors);
+  };
+  const FrameResult opaque = run(LateZ::kOpaque, 0, false);
+  const FrameResult no_write = run(LateZ::kNoWrite, 0, false);
+  for (const bool hi_z : {false, true}) {
+    const FrameResult none = run(LateZ::kLate, 0, hi_z);
+    check(none, opaque);
+    CHECK(none.counters.early_z.written == opaque.counters.early_z.written);
+    const FrameResult all = run(LateZ::kLate, kWholeShare, hi_z);
+    check(all, no_write);
+    CHECK(all.counters.early_z.written == no_write.counters.early_z.written);
+    CHECK(all.counters.early_z.discarded != 0);
+  }
+}
+
 }  // namespace
 
 // A frame that is not there skips its own case only.
@@ -231,10 +262,12 @@ TEST_CASE("openarena_gl2", "[golden]") {
   check_counts("openarena_gl2");
   check_depth("openarena_gl2");
   check_orders("openarena_gl2");
+  check_late("openarena_gl2");
 }
 
 TEST_CASE("warzone2100_vulkan", "[golden]") {
   check_counts("warzone2100_vulkan");
   check_depth("warzone2100_vulkan");
   check_orders("warzone2100_vulkan");
+  check_late("warzone2100_vulkan");
 }

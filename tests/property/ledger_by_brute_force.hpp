@@ -316,6 +316,7 @@ class BruteForce {
     struct Count {
       std::uint64_t covered = 0;
       std::uint64_t passed = 0;
+      std::uint64_t kept = 0;
     };
     const int tile = config_.tile_walker.tile_size;
     std::map<Pixel, Fate> fates = tile_fates(bounds, edges, jobs);
@@ -328,19 +329,21 @@ class BruteForce {
         if (!std::ranges::all_of(edges, [&](const ExactEdge& edge) { return edge.inside(x, y); })) {
           continue;
         }
-        const bool passed = test(triangle.triangle, x, y);
+        const Outcome outcome = test(triangle.triangle, x, y);
         for (Count* const count : {&piece, &tiles[{x / tile, y / tile}], &quads[{x / 2, y / 2}]}) {
           ++count->covered;
-          count->passed += passed ? 1 : 0;
+          count->passed += outcome.passed ? 1 : 0;
+          count->kept += outcome.kept ? 1 : 0;
         }
         ++a_->fragments.all;
-        const bool killed_by_hi_z = kill(a_->fragments, fates.at({x / tile, y / tile}), passed);
+        const bool killed_by_hi_z = kill(a_->fragments, fates.at({x / tile, y / tile}), outcome);
         hidden += killed_by_hi_z ? 1 : 0;
       }
     }
     for (const auto& [place, count] : quads) {
       ++a_->quads.all;
-      kill(a_->quads, fates.at({place.first * 2 / tile, place.second * 2 / tile}), count.passed != 0);
+      kill(a_->quads, fates.at({place.first * 2 / tile, place.second * 2 / tile}),
+           {.passed = count.passed != 0, .kept = count.kept != 0});
     }
     for (const auto& [place, fate] : fates) {
       ledger::TileAccount& account = a_->tiles;
@@ -352,26 +355,33 @@ class BruteForce {
          : fate == Fate::kHiZTile   ? account.hi_z_tile
          : count.covered == 0       ? account.empty
          : count.passed == 0        ? account.early_z
+         : count.kept == 0          ? account.late
                                     : account.survive);
     }
     ledger::PieceAccount& pieces = a_->pieces;
     ++(piece.covered == 0        ? pieces.uncovered
-       : piece.passed != 0       ? pieces.survive
+       : piece.kept != 0         ? pieces.survive
+       : piece.passed != 0       ? pieces.late
        : hidden == piece.covered ? pieces.hi_z
        : hidden == 0             ? pieces.early_z
                                  : pieces.hi_z_early_z);
   }
 
+  struct Outcome {
+    bool passed = true;
+    bool kept = true;
+  };
+
   /// Returns whether hi_z did it.
-  static bool kill(ledger::SampleAccount& account, Fate fate, bool passed) {
+  static bool kill(ledger::SampleAccount& account, Fate fate, const Outcome& outcome) {
     switch (fate) {
       case Fate::kHiZBlock:
       case Fate::kHiZTile:
-        CHECK(!passed);
+        CHECK(!outcome.passed);
         ++(fate == Fate::kHiZBlock ? account.hi_z_block : account.hi_z_tile);
         return true;
       case Fate::kEvaluated:
-        ++(passed ? account.survive : account.early_z);
+        ++(outcome.kept ? account.survive : outcome.passed ? account.late : account.early_z);
         return false;
       default:
         FAIL("a covered sample in a tile outside an edge");
@@ -380,16 +390,19 @@ class BruteForce {
   }
 
   /// The depth test of one sample of the draw at work.
-  bool test(std::uint32_t triangle, int x, int y) {
+  Outcome test(std::uint32_t triangle, int x, int y) {
     if (!state_.test) {
-      return true;
+      return {};
     }
     const std::uint32_t code =
         samples_.codes.at({static_cast<std::uint32_t>(draws_.size() - 1), triangle, x, y});
     std::uint32_t& depth = stored(surface_, x, y);
     const bool passed = passes_by_definition(state_.func, code, depth);
-    depth = passed && state_.write ? code : depth;
-    return passed;
+    const bool kept =
+        passed &&
+        !(state_.late && discard_.discards(static_cast<std::uint32_t>(draws_.size() - 1), triangle, x, y));
+    depth = kept && state_.write ? code : depth;
+    return {.passed = passed, .kept = kept};
   }
 
   const Frame& frame_;
@@ -406,6 +419,7 @@ class BruteForce {
   Accounts* a_ = nullptr;
   std::uint32_t surface_ = kNoSurface;
   EarlyZState state_;
+  ShaderDiscard discard_ = shader_discard(config_);
 };
 
 }  // namespace halfspace::testing

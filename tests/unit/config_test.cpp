@@ -38,6 +38,9 @@ TEST_CASE("config: no key takes a value outside its list, and the error says all
     for (const char* value : {"0", "-1", "3.5", "", " ", "8 ", "0x8", "1e3", "99999", "99999999999999999999",
                               "TRUE", "yes", "Plane"}) {
       CAPTURE(key.name, value);
+      if (key.legal == "0 to 1" && value == std::string("0")) {
+        continue;  // a share of nothing
+      }
       Config config;
       CHECK_THROWS_WITH(set_config(config, key.name, value),
                         "configuration key '" + key.name + "' is '" + value + "'; legal: " + key.legal);
@@ -159,9 +162,9 @@ TEST_CASE("config: a file is refused by its name too, and one that was written i
   CHECK(error_of_file("").empty());
 
   Config config;
-  for (const char* setting :
-       {"late_z=no_write", "tile_walker.tile_size=16", "block_walker.trivial_reject=false",
-        "depth.interpolator=plane", "memory.latency=65535", "setup.interval=16"}) {
+  for (const char* setting : {"late_z=no_write", "late_z.discard=0.125", "tile_walker.tile_size=16",
+                              "block_walker.trivial_reject=false", "depth.interpolator=plane",
+                              "memory.latency=65535", "setup.interval=16"}) {
     set_config(config, setting);
   }
   CHECK(error_of_file(to_toml(config)).empty());

@@ -47,7 +47,8 @@ class NotingReader final : public StreamReader {
     jobs.insert(jobs.end(), part.jobs.begin(), part.jobs.end());
     sizes.insert(sizes.end(),
                  {part.segments.size(), part.triangles.size(), part.blocks.size(), part.jobs.size(),
-                  part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.late.size(), part.tiles.size(),
+                  part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.late.size(),
+                  part.tiles.size(),
                   std::size_t{part.continues_segment} + std::size_t{part.continues_triangle} * 2 +
                       std::size_t{part.open_segment} * 4 + std::size_t{part.open_triangle} * 8});
   }

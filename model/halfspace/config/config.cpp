@@ -16,8 +16,8 @@
 namespace halfspace {
 namespace {
 
-/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`, a
-/// share is in parts of kWholeShare.
+/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`,
+/// a share is in parts of kWholeShare.
 struct Legal {
   enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kShare, kOneOf } kind;
   int least = 0;

@@ -26,8 +26,8 @@ namespace halfspace::ledger {
   C(hi_z,         "hi_z rejects all of their samples")                                       \
   C(hi_z_early_z, "hi_z rejects some of their samples, early_z the others")                  \
   C(early_z,      "early_z rejects all of their samples")                                    \
-  C(late,         "a test behind the shader rejects what is left: the model has none")       \
-  C(survive,      "a sample passes")
+  C(late,         "the shader discards all that passes")                                     \
+  C(survive,      "a sample passes and is kept")
 
 #define HALFSPACE_BLOCK_ACCOUNT(C)                                                           \
   C(all,          "that the bounds of drawn pieces touch")                                   \
@@ -43,15 +43,16 @@ namespace halfspace::ledger {
   C(hi_z_tile,    "hi_z rejects them, in a block that goes on")                              \
   C(empty,        "evaluated, and no sample is covered")                                     \
   C(early_z,      "none of their samples passes early_z")                                    \
-  C(survive,      "a sample passes")
+  C(late,         "the shader discards all that passes")                                     \
+  C(survive,      "a sample passes and is kept")
 
 #define HALFSPACE_SAMPLE_ACCOUNT(C)                                                          \
   C(all,          "covered by drawn pieces on the target, inside scissor and viewport")       \
   C(hi_z_block,   "in tiles that hi_z rejects with all that is left of the block")           \
   C(hi_z_tile,    "in tiles that hi_z rejects, in a block that goes on")                     \
   C(early_z,      "do not pass early_z")                                                     \
-  C(late,         "do not pass a test behind the shader: the model has none")                \
-  C(survive,      "pass")
+  C(late,         "pass, and the shader discards them")                                      \
+  C(survive,      "pass, and are kept")
 
 #define HALFSPACE_LINE_ACCOUNT(C)                                                            \
   C(all,          "looked up in the z cache: parts of tiles, for each burst")                \

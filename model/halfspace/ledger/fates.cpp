@@ -92,7 +92,8 @@ void Fates::begin_piece(const SetupTriangle& triangle) {
   covered_ = all.samples;
   hidden_ = 0;
   tested_ = 0;
-  survivors_ = 0;
+  passed_ = 0;
+  kept_ = 0;
 }
 
 void Fates::block_walked(const BlockJob& job, std::uint64_t touched) {
@@ -131,13 +132,18 @@ void Fates::tile_job(const TileJob& /*job*/) {
 void Fates::quad(const QuadEvent& quad) {
   const auto samples = static_cast<std::uint64_t>(std::popcount(quad.mask));
   const auto passed = static_cast<std::uint64_t>(std::popcount(quad.passed));
-  ++(passed != 0 ? accounts_->quads.survive : accounts_->quads.early_z);
-  accounts_->fragments.survive += passed;
+  const auto kept = static_cast<std::uint64_t>(std::popcount(quad.kept));
+  SampleAccount& quads = accounts_->quads;
+  ++(kept != 0 ? quads.survive : passed != 0 ? quads.late : quads.early_z);
+  accounts_->fragments.survive += kept;
+  accounts_->fragments.late += passed - kept;
   accounts_->fragments.early_z += samples - passed;
   tested_ += samples;
-  survivors_ += passed;
+  passed_ += passed;
+  kept_ += kept;
   tile_covered_ = true;
-  tile_survives_ |= passed != 0;
+  tile_passes_ |= passed != 0;
+  tile_survives_ |= kept != 0;
   const auto size = static_cast<std::uint32_t>(config_.tile_walker.tile_size);
   const auto parts = static_cast<std::uint32_t>(config_.z_cache.parts);
   for (std::uint32_t row = 0; row < 2; ++row) {
@@ -152,10 +158,14 @@ void Fates::end_tile() {
     return;
   }
   TileAccount& tiles = accounts_->tiles;
-  ++(!tile_covered_ ? tiles.empty : tile_survives_ ? tiles.survive : tiles.early_z);
+  ++(!tile_covered_   ? tiles.empty
+     : tile_survives_ ? tiles.survive
+     : tile_passes_   ? tiles.late
+                      : tiles.early_z);
   accounts_->lines.all += touches_depth_[draw_] ? static_cast<std::uint64_t>(std::popcount(tile_parts_)) : 0;
   in_tile_ = false;
   tile_covered_ = false;
+  tile_passes_ = false;
   tile_survives_ = false;
   tile_parts_ = 0;
 }
@@ -167,11 +177,12 @@ void Fates::end_piece() {
   }
   in_piece_ = false;
   PieceAccount& pieces = accounts_->pieces;
-  ++(covered_ == 0     ? pieces.uncovered
-     : survivors_ != 0 ? pieces.survive
-     : tested_ == 0    ? pieces.hi_z
-     : hidden_ == 0    ? pieces.early_z
-                       : pieces.hi_z_early_z);
+  ++(covered_ == 0  ? pieces.uncovered
+     : kept_ != 0   ? pieces.survive
+     : passed_ != 0 ? pieces.late
+     : tested_ == 0 ? pieces.hi_z
+     : hidden_ == 0 ? pieces.early_z
+                    : pieces.hi_z_early_z);
 }
 
 std::vector<Accounts> Fates::finish() {

@@ -47,14 +47,16 @@ class Fates final : public PacketObserver {
   std::uint32_t draw_ = 0;
   std::uint32_t triangle_ = 0;
   bool in_piece_ = false;
-  std::uint64_t covered_ = 0;    ///< samples: all of them,
-  std::uint64_t hidden_ = 0;     ///< in tiles that hi_z rejected,
-  std::uint64_t tested_ = 0;     ///< that came to early_z,
-  std::uint64_t survivors_ = 0;  ///< and that passed
+  std::uint64_t covered_ = 0;  ///< samples: all of them,
+  std::uint64_t hidden_ = 0;   ///< in tiles that hi_z rejected,
+  std::uint64_t tested_ = 0;   ///< that came to early_z,
+  std::uint64_t passed_ = 0;   ///< that passed,
+  std::uint64_t kept_ = 0;     ///< and that the shader kept
 
   // Of the tile at work.
   bool in_tile_ = false;
   bool tile_covered_ = false;
+  bool tile_passes_ = false;
   bool tile_survives_ = false;
   std::uint8_t tile_parts_ = 0;  ///< bit i: a sample of part i is covered
 };

@@ -135,15 +135,16 @@ std::uint64_t check_counters(const Accounts& a, const Counters& c, const std::st
         c.hi_z.tiles_rejected);
   equal("tiles.empty", a.tiles.empty, "edge_evaluator.tiles_empty", c.edge_evaluator.tiles_empty);
   equal("tiles.early_z", a.tiles.early_z, "early_z.tiles_killed", c.early_z.tiles_killed);
-  equal("tiles.early_z + tiles.survive", a.tiles.early_z + a.tiles.survive, "quad_generator.tiles",
-        c.quad_generator.tiles);
-  equal("quads.early_z + quads.survive", a.quads.early_z + a.quads.survive, "quad_generator.quads",
-        c.quad_generator.quads);
+  equal("tiles.early_z + tiles.late + tiles.survive", a.tiles.early_z + a.tiles.late + a.tiles.survive,
+        "quad_generator.tiles", c.quad_generator.tiles);
+  equal("quads.early_z + quads.late + quads.survive", a.quads.early_z + a.quads.late + a.quads.survive,
+        "quad_generator.quads", c.quad_generator.quads);
   equal("fragments.early_z + fragments.late + fragments.survive",
         a.fragments.early_z + late + a.fragments.survive, "quad_generator.fragments",
         c.quad_generator.fragments);
   equal("fragments.late + fragments.survive", late + a.fragments.survive, "early_z.survivors",
         c.early_z.survivors);
+  equal("fragments.late", late, "early_z.discarded", c.early_z.discarded);
   equal("lines.all", a.lines.all, "early_z.z_hits + early_z.z_misses", c.early_z.z_hits + c.early_z.z_misses);
   equal("read.fetched", a.read.fetched, "early_z.bytes_read", c.early_z.bytes_read);
   equal("write_backs.evicted", a.write_backs.evicted, "early_z.z_evicted", c.early_z.z_evicted);

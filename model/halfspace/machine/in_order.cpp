@@ -192,14 +192,15 @@ class InOrderRun {
     if (touches_depth_) {
       const int parts = config_.z_cache.parts;
       if (config_.hi_z.enabled) {
-        update_ = passage::hi_z_update<TileSize>(*draw_, triangle_.depth, stored,
-                                                 passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+        update_ =
+            passage::hi_z_update<TileSize>(*draw_, triangle_.depth, stored,
+                                           passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
       }
       passage::write_late<TileSize>(tested, codes_, *draw_, stored);
       look_up(coverage, tested);
     }
     if (draw_->record_quads) {
-      show_quads(burst, tested.passed);
+      show_quads(burst, tested);
     }
     quads_.count_burst();
     return burst.quads;
@@ -215,17 +216,16 @@ class InOrderRun {
       stream_->accessed(misses.parts());
       if (stream_->wants_accesses()) {
         constexpr int kBands = stream_bands(TileSize);
-        stream_->access({coverage.tile_x, coverage.tile_y,
-                         passage::touched_parts<TileSize>(coverage, *draw_, kBands),
-                         passage::written_parts<TileSize>(tested.kept, *draw_, kBands),
-                         sure_parts<TileSize>(coverage, kBands), access.shifts, access.late,
-                         access.late_write});
+        stream_->access(
+            {coverage.tile_x, coverage.tile_y, passage::touched_parts<TileSize>(coverage, *draw_, kBands),
+             passage::written_parts<TileSize>(tested.kept, *draw_, kBands),
+             sure_parts<TileSize>(coverage, kBands), access.shifts, access.late, access.late_write});
       }
     }
   }
 
-  void show_quads(const Burst& burst, const TileMask& passed) {
-    passage::show_quads<TileSize>(burst.packet, passed, codes_.data(), triangle_, *draw_,
+  void show_quads(const Burst& burst, const passage::Tested& tested) {
+    passage::show_quads<TileSize>(burst.packet, tested, codes_.data(), triangle_, *draw_,
                                   [this](const QuadEvent& quad, std::size_t number) {
                                     if (wants_cycles_) {
                                       quads_.add(quad, number);

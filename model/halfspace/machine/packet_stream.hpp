@@ -38,16 +38,17 @@ class StreamBlock {
 using StreamJob = std::uint8_t;
 
 /// A burst that has to do with stored depth: its tile, and the bands of rows, a quarter of a tile each (a
-/// half in tiles of 4 x 4), that it touches, writes and overwrites whole; by how much the parts that it writes
-/// are coded then, on the machine that the stream is of; and whether its draw writes late, and it does.
+/// half in tiles of 4 x 4), that it touches, writes and overwrites whole; by how much the parts that it
+/// writes are coded then, on the machine that the stream is of; and whether its draw writes late, and it
+/// does.
 class StreamAccess {
  public:
   StreamAccess() = default;
   StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written,
                std::uint8_t sure = 0, ZShifts shifts = {}, bool late = false, bool late_write = false)
-      : words_{tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
-               sure | std::uint32_t{shifts.bits()} << 4 | (late ? 1u << 12 : 0) |
-                   (late_write ? 1u << 13 : 0)} {}
+      : words_{
+            tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
+            sure | std::uint32_t{shifts.bits()} << 4 | (late ? 1u << 12 : 0) | (late_write ? 1u << 13 : 0)} {}
   explicit StreamAccess(const std::array<std::uint32_t, 2>& words) : words_(words) {}
   [[nodiscard]] std::uint32_t tile_x() const { return words_[0] & 0xFFF; }
   [[nodiscard]] std::uint32_t tile_y() const { return words_[0] >> 12 & 0xFFF; }

@@ -34,8 +34,8 @@ struct ZMiss {
 struct ZAccess {
   std::uint8_t touched = 0;
   std::uint8_t written = 0;
-  std::uint8_t sure = 0;  ///< overwritten whole
-  ZShifts shifts{};       ///< by which those that it wrote to are coded then
+  std::uint8_t sure = 0;    ///< overwritten whole
+  ZShifts shifts{};         ///< by which those that it wrote to are coded then
   bool late = false;        ///< it writes late,
   bool late_write = false;  ///< and something passed
 };

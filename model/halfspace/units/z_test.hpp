@@ -42,8 +42,8 @@ void interpolate_tile(const SetupTriangle& triangle, const QuadBurst& burst, con
                       TileCodes<TileSize>& codes);
 
 /// Tests the burst against `stored`, the tile's codes in the surface (TileSize^2, row order), writes those
-/// that pass where the state says so and not late, and returns the mask of the samples that passed. All of a sure burst
-/// pass, whatever `stored` holds. Fills `codes` when the test is on.
+/// that pass where the state says so and not late, and returns the mask of the samples that passed. All of a
+/// sure burst pass, whatever `stored` holds. Fills `codes` when the test is on.
 template <int TileSize>
 TileMask z_test(const SetupTriangle& triangle, const QuadBurst& burst, const EarlyZState& state,
                 std::uint32_t* stored, TileCodes<TileSize>& codes);

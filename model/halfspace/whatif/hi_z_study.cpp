@@ -121,8 +121,9 @@ class Study {
       }
       if (touches_depth(draw_->early_z)) {
         const int parts = config_.z_cache.parts;
-        update = passage::hi_z_update<TileSize>(
-            *draw_, triangle_.depth, stored, passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
+        update =
+            passage::hi_z_update<TileSize>(*draw_, triangle_.depth, stored,
+                                           passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
         passage::write_late<TileSize>(tested, codes_, *draw_, stored);
       }
     }

@@ -25,8 +25,8 @@ inline void hi_z(HiZ& unit, BlockJob& block, const DepthEquation& equation, cons
   block.sure = verdict.sure;
 }
 
-/// What hi_z is told of a burst that touched `touched`, of `parts`. `stored`: the tile's codes (TileSize^2, row
-/// order) after its test, without what it writes late.
+/// What hi_z is told of a burst that touched `touched`, of `parts`. `stored`: the tile's codes (TileSize^2,
+/// row order) after its test, without what it writes late.
 template <int TileSize>
 HiZUpdate hi_z_update(const DrawContext& draw, const DepthEquation& equation, const std::uint32_t* stored,
                       std::uint8_t touched, int parts) {

@@ -39,8 +39,8 @@ void count_samples(const TileMask& mask, std::uint16_t* counts) {
 }
 
 /// `surface` is the draw's, null where its target has none; `covered` and what is in `tested` are of one tile
-/// of it, and `triangle` is the triangle's number in the draw. Of a clear nothing is counted: it only makes its samples
-/// invisible.
+/// of it, and `triangle` is the triangle's number in the draw. Of a clear nothing is counted: it only makes
+/// its samples invisible.
 template <int TileSize>
 void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y, std::uint32_t triangle,
           const DrawContext& draw, Surface* surface) {
@@ -68,7 +68,7 @@ void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y,
 /// Calls show(QuadEvent, n) for each quad of a burst, n counting them from 0 in the order in which they
 /// leave. `codes`: TileSize^2 depth codes, all that is shown of a sample that is covered.
 template <int TileSize, class Show>
-void show_quads(const QuadBurst& burst, const TileMask& passed, const std::uint32_t* codes,
+void show_quads(const QuadBurst& burst, const Tested& tested, const std::uint32_t* codes,
                 const SetupTriangle& triangle, const DrawContext& draw, Show&& show) {
   std::size_t number = 0;
   for_each_quad<TileSize>(burst, [&](const Quad& quad) {
@@ -79,7 +79,8 @@ void show_quads(const QuadBurst& burst, const TileMask& passed, const std::uint3
                     .y = static_cast<std::uint32_t>(burst.coverage.tile_y * TileSize + quad.y),
                     .front = triangle.front,
                     .mask = quad.mask,
-                    .passed = quad_bits<TileSize>(passed, quad.x, quad.y)};
+                    .passed = quad_bits<TileSize>(tested.passed, quad.x, quad.y),
+                    .kept = quad_bits<TileSize>(tested.kept, quad.x, quad.y)};
     for (int i = 0; i < 4; ++i) {
       const int sample = (quad.y + i / 2) * TileSize + quad.x + i % 2;
       event.depth[static_cast<std::size_t>(i)] = (quad.mask >> i & 1) != 0 ? codes[sample] : 0;

@@ -36,9 +36,8 @@ void complete_codes(const SetupTriangle& triangle, const QuadBurst& burst, const
 template <int TileSize>
 TileMask kept(const TileMask& passed, int tile_x, int tile_y, std::uint32_t triangle,
               const DrawContext& draw) {
-  return draw.early_z.late
-             ? shader_keeps<TileSize>(draw.discard, passed, draw.draw, triangle, tile_x, tile_y)
-             : passed;
+  return draw.early_z.late ? shader_keeps<TileSize>(draw.discard, passed, draw.draw, triangle, tile_x, tile_y)
+                           : passed;
 }
 
 struct Tested {
@@ -47,15 +46,15 @@ struct Tested {
 };
 
 /// Tests a burst. `stored`: the tile's codes in the surface, null where the test is off; those that
-/// pass are written there, where the draw does not write late: then write_late() follows. `codes` is filled where the test is on, or where the draw's quads are recorded.
+/// pass are written there, where the draw does not write late: then write_late() follows. `codes` is filled
+/// where the test is on, or where the draw's quads are recorded.
 template <int TileSize>
 Tested z_test(const SetupTriangle& triangle, const Burst& burst, DrawContext& draw, std::uint32_t* stored,
               TileCodes<TileSize>& codes) {
   const Coverage& coverage = burst.packet.coverage;
   Tested tested;
   tested.passed = halfspace::z_test<TileSize>(triangle, burst.packet, draw.early_z, stored, codes);
-  tested.kept =
-      kept<TileSize>(tested.passed, coverage.tile_x, coverage.tile_y, triangle.triangle, draw);
+  tested.kept = kept<TileSize>(tested.passed, coverage.tile_x, coverage.tile_y, triangle.triangle, draw);
   count_z_test(draw, burst.fragments, popcount<TileSize>(tested.passed), popcount<TileSize>(tested.kept));
   if (draw.record_quads) {
     complete_codes<TileSize>(triangle, burst.packet, draw.early_z, codes);

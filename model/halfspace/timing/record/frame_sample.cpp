@@ -129,7 +129,8 @@ SampleTrace FrameSample::trace(const ZTrace& trace) const {
 
 std::vector<StreamLate> FrameSample::late(const std::vector<StreamLate>& all) const {
   std::vector<StreamLate> sampled;
-  std::vector<std::uint32_t> before{0};  // by late write of the record: those before it that are in the sample
+  std::vector<std::uint32_t> before{
+      0};  // by late write of the record: those before it that are in the sample
   std::size_t at = 0;
   std::uint32_t access = 0;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {

@@ -50,8 +50,7 @@ std::uint64_t longest_time(const FrameWork& work, const Config& config) {
   // 16 and 4: the cycles in which credits travel, and more than that
   const auto through = static_cast<std::uint64_t>(sum_of_latencies(config));
   // a late write waits for the shader, and then for those before it
-  const std::uint64_t late =
-      config.late_z.mode == LateZ::kLate ? m.late_latency + m.test_beats.back() : 0;
+  const std::uint64_t late = config.late_z.mode == LateZ::kLate ? m.late_latency + m.test_beats.back() : 0;
   const std::uint64_t each_job = through + 16 + late;
   for (std::size_t quads = 0; quads < work.jobs.size(); ++quads) {
     time += work.jobs[quads] * (each_job + m.quad_beats[quads] + m.test_beats[quads]);

@@ -449,7 +449,8 @@ class RecurrenceCore {
     }
     fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
     if (HWY_UNLIKELY(work.late)) {
-      memory_->late.set(static_cast<std::uint32_t>(late_given_ % kLateRing), y_next_ + machine().late_latency);
+      memory_->late.set(static_cast<std::uint32_t>(late_given_ % kLateRing),
+                        y_next_ + machine().late_latency);
       memory_->late_quads[late_given_++ % kLateRing] = static_cast<std::uint8_t>(work.quads);
     }
   }

@@ -9,8 +9,7 @@ namespace {
 
 std::string value_text(int value) { return std::to_string(value); }
 template <class Enumeration>
-  requires std::is_enum_v<Enumeration>
-std::string value_text(Enumeration value) {
+requires std::is_enum_v<Enumeration> std::string value_text(Enumeration value) {
   return std::to_string(static_cast<int>(value));
 }
 // A bit must be written as one: Verilator warns of a wider number.

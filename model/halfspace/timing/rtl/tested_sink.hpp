@@ -135,7 +135,7 @@ class TestedSink {
           quad_generator<TileSize>({.tile_x = beat.tile_x, .tile_y = beat.tile_y, .mask = covered_});
       const auto width = static_cast<std::size_t>(run_.widths.TestWidth);
       passage::show_quads<TileSize>(
-          burst, passed_, codes_.data(), triangle, draw, [&](QuadEvent& quad, std::size_t number) {
+          burst, tested, codes_.data(), triangle, draw, [&](QuadEvent& quad, std::size_t number) {
             quad.cycle = beat_cycles_[std::min(number / width, beat_cycles_.size() - 1)];
             draw.observer->quad(quad);
           });

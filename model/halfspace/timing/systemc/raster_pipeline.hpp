@@ -91,7 +91,7 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   std::unique_ptr<Units> units_;
   Watch watch_;
   Cycle late_next_ = 0;  ///< after the late writes before the last clear
-  FrameCycles cycles_;  ///< of the frame that ended last
+  FrameCycles cycles_;   ///< of the frame that ended last
   bool bound_ = false;
   std::vector<std::unique_ptr<TimedSignal>> signals_;
 };

@@ -47,7 +47,7 @@ void Sink::show(const TestedToken& token, Cycle first_beat) {
                           draw, run_.surface(draw));
   if (draw.record_quads) {
     const auto width = static_cast<Cycle>(run_.config.early_z.quads_per_cycle);
-    passage::show_quads<TileSize>(burst, token.result.passed, token.codes.data(), triangle, draw,
+    passage::show_quads<TileSize>(burst, token.result, token.codes.data(), triangle, draw,
                                   [&](QuadEvent& quad, std::size_t number) {
                                     quad.cycle = first_beat + number / width;
                                     run_.observer->quad(quad);

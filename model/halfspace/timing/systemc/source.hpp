@@ -20,8 +20,8 @@ class FrameControl {
   virtual void begin_frame() = 0;
   /// The frame had `cycles`.
   virtual void end_frame(Cycle cycles) = 0;
-  /// Does the late writes that are out, in a pipe that is empty, before the clear or the flush that waits since
-  /// cycle `since`.
+  /// Does the late writes that are out, in a pipe that is empty, before the clear or the flush that waits
+  /// since cycle `since`.
   virtual void write_all_late(Cycle since) = 0;
   /// First cycle in which no stage has anything left to do; for when the pipe is empty.
   [[nodiscard]] virtual Cycle idle_from() const = 0;

@@ -1,5 +1,5 @@
-/// z_test as a module: moves the lines of the z cache, tests bursts against them, does late writes, and writes
-/// lines back.
+/// z_test as a module: moves the lines of the z cache, tests bursts against them, does late writes, and
+/// writes lines back.
 #pragma once
 
 #include <array>
