@@ -293,6 +293,73 @@ def what_if_lod(tools):
     return "\n".join(text)
 
 
+def late_z(tools):
+    """What becomes of frames whose shaders may discard: cycles, waits and kills by the way to take late draws."""
+    modes = {
+        "`opaque`": ["late_z=opaque"],
+        "`no_write`": ["late_z=no_write"],
+        "`late`, discard 0": ["late_z=late"],
+        "`late`, discard 0, queue of 64": ["late_z=late", "late_z.queue=64"],
+        "`late`, discard 0.5": ["late_z=late", "late_z.discard=0.5"],
+        "`late`, discard 1": ["late_z=late", "late_z.discard=1"],
+    }
+    columns = ["cycles", "z_test waits late", "written", "discarded", "hi_z: cycles", "waits late", "tiles rejected"]
+    text = ["    halfspace run FRAME --fidelity recurrence --set late_z=MODE [--set hi_z.enabled=true]"]
+    text += ["", f"| frame | late draws | {' | '.join(columns)} |", "|---|---|" + "---:|" * len(columns)]
+    for path in [*SCENES, *tools.captured]:
+        runs = {}
+        for mode, settings in modes.items():
+            settings = [word for setting in settings for word in ("--set", setting)]
+            runs[mode] = [
+                run_stats(tools, path, *settings, "--set", f"hi_z.enabled={on}")["frame"] for on in ("false", "true")
+            ]
+        if runs["`late`, discard 1"][0]["counters"]["early_z"]["discarded"] == 0:
+            continue
+        for mode, (without, with_hi_z) in runs.items():
+
+            def waits(frame):
+                return f"{100 * frame['time']['stages']['z_test']['stalls']['late'] / frame['time']['cycles']:.0f}%"
+
+            early_z = without["counters"]["early_z"]
+            cells = [f"{without['time']['cycles']:,}", waits(without)]
+            cells += [f"{early_z['written']:,}", f"{early_z['discarded']:,}"]
+            cells += [f"{with_hi_z['time']['cycles']:,}", waits(with_hi_z)]
+            cells += [f"{with_hi_z['counters']['hi_z']['tiles_rejected']:,}"]
+            text.append(f"| {frame_name(path)} | {mode} | {' | '.join(cells)} |")
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
+def small_triangles(tools):
+    """Triangles a cycle of the two lists of small triangles, and the bytes of depth that go with them."""
+    ideal = ["memory.latency=1", "memory.read_bytes=1024", "memory.write_bytes=1024"]
+    rejects = ["block_walker.sample_reject=true"]
+    large = ["tile_walker.tile_size=16", "block_walker.block_size=64"]
+    machines = {
+        "baseline": [],
+        "baseline, sample_reject": rejects,
+        "ideal memory": ideal,
+        "ideal memory, sample_reject": [*ideal, *rejects],
+        "ideal memory, sample_reject, coded lines": [*ideal, *rejects, "z_cache.compression=true"],
+        "ideal memory, sample_reject, tiles of 16, blocks of 64": [*ideal, *rejects, *large],
+    }
+    names = ("tiny_grid", "tiny_rand")
+    columns = [f"{name}: {what}" for name in names for what in ("triangles a cycle", "bytes a cycle")]
+    text = ["    halfspace run synthetic:NAME:full --fidelity recurrence --set KEY=VALUE..."]
+    text += ["", f"| machine | {' | '.join(columns)} |", "|---|" + "---:|" * len(columns)]
+    for machine, settings in machines.items():
+        cells = []
+        for name in names:
+            settings_words = [word for setting in settings for word in ("--set", setting)]
+            frame = run_stats(tools, f"synthetic:{name}:full", *settings_words)["frame"]
+            early_z = frame["counters"]["early_z"]
+            moved = early_z["bytes_read"] + early_z["bytes_written"] + frame["flushed_bytes"]
+            cycles = frame["time"]["cycles"]
+            cells += [f"{frame['counters']['front_end']['triangles'] / cycles:.3f}", f"{moved / cycles:.0f}"]
+        text.append(f"| {machine} | {' | '.join(cells)} |")
+    text += ["", "Ideal memory: latency of 1 cycle, 1024 bytes read and 1024 written in a cycle."]
+    return "\n".join(text)
+
+
 LEDGER_OPTIONS = ["--set", "hi_z.enabled=true", "--set", "z_cache.compression=true"]
 
 
@@ -352,6 +419,8 @@ FIGURES = {
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
     "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
     "hi-z-machines": ("docs/units/hi_z.md", hi_z_machines),
+    "late-z": ("docs/units/early_z.md", late_z),
+    "small-triangles": ("docs/units/block_walker.md", small_triangles),
     "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
     "reference": ("docs/guides/reference.md", reference),
     "what-if-demo": ("docs/guides/whatif.md", what_if_demo),

@@ -224,6 +224,10 @@ TEST_CASE("a sample waits for no line that left the z cache outside of it", "[ti
     trace.z.burst.push_back(i);
   }
   trace.z.burst.push_back(kNoBurst);
+  for (std::uint32_t i = 0; i < jobs; ++i) {  // and for its late write, and leaves one
+    trace.z.late.push_back({.access = i, .done = i, .leaves = true});
+  }
+  trace.z.late.push_back({.access = kNoBurst});
 
   const FrameSample sample(record, {.stretches = 96});
   const ZTrace sampled = sample.trace(trace).trace;
@@ -231,6 +235,8 @@ TEST_CASE("a sample waits for no line that left the z cache outside of it", "[ti
   std::size_t without_wait = 0;
   for (std::size_t i = 0; i < sampled.z.misses.size(); ++i) {
     CHECK(sampled.z.burst[i] == i);
+    CHECK(sampled.z.late[i].access == i);
+    CHECK(sampled.z.late[i].done == i);  // of the sample's
     CHECK(sampled.z.misses[i].victim == 1);
     without_wait += sampled.z.misses[i].line == 0 ? 1 : 0;
   }

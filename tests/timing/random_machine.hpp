@@ -128,6 +128,7 @@ inline std::vector<Config> random_machines(Random& random, const Config& recorde
       config.z_cache.lines = recorded.z_cache.lines;
       config.z_cache.ways = recorded.z_cache.ways;
       config.z_cache.parts = recorded.z_cache.parts;
+      config.late_z.queue = recorded.late_z.queue;
       config.z_cache.misses_in_flight = std::max(config.z_cache.misses_in_flight, recorded.z_cache.parts);
       config.z_cache.write_buffers = std::max(config.z_cache.write_buffers, recorded.z_cache.parts);
     }

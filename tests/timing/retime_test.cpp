@@ -54,6 +54,7 @@ TEST_CASE("re-timing equals a full run on random machines, one by one and in a b
         machines.back().z_cache.lines = recorded.z_cache.lines;
         machines.back().z_cache.ways = recorded.z_cache.ways;
         machines.back().z_cache.parts = recorded.z_cache.parts;
+        machines.back().late_z.queue = recorded.late_z.queue;
         machines.back().z_cache.misses_in_flight =
             std::max(machines.back().z_cache.misses_in_flight, recorded.z_cache.parts);
         machines.back().z_cache.write_buffers =
@@ -132,7 +133,8 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"hi_z.bits", "9"},
                                                          {"hi_z.lag", "77"},
                                                          {"depth.interpolator", "barycentric"},
-                                                         {"late_z", "no_write"},
+                                                         {"late_z.mode", "no_write"},
+                                                         {"late_z.discard", "0.5"},
                                                          {"z_cache.fast_clear", "false"},
                                                          {"z_cache.compression", "true"}};
   for (const auto& [key, value] : changes) {

@@ -102,7 +102,7 @@
     KEY(late_z., discard, int, 0, share(), "", function,                                                     \
         "share of the fragments that the shader discards: those that a hash of draw, triangle and pixel "    \
         "chooses")                                                                                           \
-    KEY(late_z., seed, int, 1, range(1, 2147483647), "", function,                                           \
+    KEY(late_z., seed, int, 1, range(1, 65535), "", function,                                                \
         "seed of that hash")                                                                                 \
   END(late_z)                                                                                                \
   BEGIN(depth)                                                                                               \

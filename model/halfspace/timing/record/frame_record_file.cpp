@@ -131,11 +131,17 @@ void check_access(const Reader& reader, const FrameRecord& record, const StreamS
   }
   if (access.touched() == 0 || (access.touched() & ~bands) != 0 ||
       (access.written() & ~access.touched()) != 0 || (access.sure() & ~access.written()) != 0 ||
-      access.words()[1] >> 12 != 0) {
-    reader.fail(fmt::format("a burst that touches bands {:04b}, writes {:04b} and overwrites {:04b}",
-                            access.touched(), access.written(), access.words()[1]));
+      access.words()[1] >> 14 != 0) {
+    reader.fail(
+        fmt::format("a burst that touches bands {:04b}, writes {:04b} and overwrites {:04b}, in bits {:b}",
+                    access.touched(), access.written(), access.sure(), access.words()[1]));
   }
   const Config& config = record.config;
+  if ((access.late() && config.late_z.mode != LateZ::kLate) || (access.late_write() && !access.late())) {
+    reader.fail(fmt::format("a burst with a late write, of a draw that is {}, where late_z.mode is {}",
+                            access.late() ? "late" : "not late",
+                            config.late_z.mode == LateZ::kLate ? "late" : "not late"));
+  }
   const int samples = config.tile_walker.tile_size * config.tile_walker.tile_size / config.z_cache.parts;
   const int bytes = samples * static_cast<int>(surface.sample_bytes);
   for (int part = 0; part < kMaxZParts; ++part) {

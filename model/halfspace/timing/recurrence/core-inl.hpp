@@ -468,8 +468,8 @@ class RecurrenceCore {
   /// All that are out, when the stages before have nothing left to do and a clear or the flush waits.
   HWY_INLINE void write_all_late() {
     if (late_given_ != late_written_) {
-      const T idle_from = near(later(decide_next_, clear_next_));
-      late_begun_ = later(later(in_pipe(), hi_z_out_), idle_from);
+      const S in_stages = clock_.setup(later(in_pipe(), hi_z_out_));
+      late_begun_ = near(later(later(decide_next_, clear_next_), in_stages));
       late_next_ = write_late(late_given_, late_begun_);
     }
   }
