@@ -199,6 +199,38 @@ def hi_z_machines(tools):
     return f"{command}\n\n{marked(chr(10).join(rows), map(frame_name, tools.captured))}"
 
 
+def depth_traffic(tools):
+    """Bytes of depth, coded and raw, of each frame, and the lines and ratio of each form."""
+    rows = output(tools.program, "bench", "depth-traffic", *SCENES, *tools.captured).split("\n\n", 1)[1]
+    frames = {}
+    for line in rows.splitlines()[2:]:
+        name, line_class, *numbers = [cell.strip() for cell in line.strip("|").split("|")]
+        frames.setdefault(name, {})[line_class] = [int(number) for number in numbers[:6]]
+    columns = ["raw, bytes", "stored, bytes", "ratio", "ratio, read", "ratio, written"]
+    columns += ["plane: lines", "ratio", "ends: lines", "ratio", "raw: lines", "cleared: lines"]
+    text = ["    halfspace bench depth-traffic FRAME...", ""]
+    text += [f"| frame | {' | '.join(columns)} |", "|---|" + "---:|" * len(columns)]
+    for name, classes in frames.items():
+
+        def total(prefix, ways=(0, 1)):
+            """Lines, raw and stored bytes of these classes; ways: 0 read, 1 written."""
+            found = [numbers for each, numbers in classes.items() if each.startswith(prefix)]
+            return [sum(numbers[3 * way + i] for numbers in found for way in ways) for i in range(3)]
+
+        def ratio(counts):
+            return f"{counts[1] / counts[2]:.2f}" if counts[2] else "-"
+
+        moved = total("moved")
+        lines = moved[0] + total("cleared")[0]
+        cells = [f"{moved[1]:,}", f"{moved[2]:,}", ratio(moved)]
+        cells += [ratio(total("moved", [way])) for way in (0, 1)]
+        for form in ("plane", "ends"):
+            cells += [f"{100 * total(form)[0] / lines:.1f} %", ratio(total(form))]
+        cells += [f"{100 * total(each)[0] / lines:.1f} %" for each in ("raw", "cleared")]
+        text.append(f"| {name} | {' | '.join(cells)} |")
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
 def merging_counts(tools, source, held, folder):
     """What quad merging counts of a frame, with so many quads held."""
     options = ["--no-pictures", "--quad-merging", str(held), "--out", folder]
@@ -350,6 +382,7 @@ FIGURES = {
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
+    "depth-traffic": ("docs/units/z_codec.md", depth_traffic),
     "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
     "hi-z-machines": ("docs/units/hi_z.md", hi_z_machines),
     "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
