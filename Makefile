@@ -65,6 +65,10 @@ bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and l
 	.venv/bin/python tools/plot_speed.py out/speed/speed.json docs/images/speed.svg
 	tools/write_figures.py bench-speed
 
+.PHONY: bench-literature
+bench-literature: release-program ## Measure what published mechanisms save on our frames; write docs/guides/literature.md's tables.
+	tools/write_literature.py --captured $(CAPTURED)
+
 .PHONY: bench-profile
 bench-profile: build/release/build.ninja ## Sample where the fast core spends its time, with perf; write docs/guides/speed.md's table.
 	cmake --preset profile --log-level=WARNING

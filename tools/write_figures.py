@@ -405,12 +405,18 @@ SLOW = ("depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profil
 ALL = [name for name in FIGURES if name not in SLOW]
 
 
-def main():
+def main(known, default, description):
+    """Writes the figures that the command line names into their pages, or those of `default`.
+
+    known: by name the page and the function that makes the text.
+    """
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last seven)")
+    names = ", ".join(known)
+    others = ", ".join(name for name in known if name not in default)
+    which = f"all but {others}" if others else "all"
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: {which})")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
@@ -429,16 +435,16 @@ def main():
         help="frames that do not ship",
     )
     options = parser.parse_args()
-    captured = [path.resolve() for path in options.captured]
+    captured = tuple(path.resolve() for path in options.captured)
     tools = Tools(
         options.program.resolve(), options.reference.resolve(), options.depth_error.resolve(), captured
     )
     stale = False
     for name in options.figures:
-        if name not in FIGURES:
+        if name not in known:
             parser.error(f"figure is '{name}'; legal: {names}")
-    for name in options.figures or ALL:
-        page, figure = FIGURES[name]
+    for name in options.figures or default:
+        page, figure = known[name]
         try:
             text = figure(tools)
         except (OSError, subprocess.CalledProcessError) as failure:
@@ -448,7 +454,7 @@ def main():
         after = replaced(before, name, text, path)
         if options.check:
             stale = stale or before != after
-            print(f"{page}: {name} is {f'stale: run `tools/write_figures.py {name}`' if before != after else 'current'}")
+            print(f"{page}: {name} is {f'stale: run `{sys.argv[0]} {name}`' if before != after else 'current'}")
         else:
             path.write_text(after)
             print(f"{name}: {page}")
@@ -456,4 +462,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(FIGURES, ALL, __doc__)
