@@ -135,8 +135,8 @@ clean: ## Remove everything that was built.
 
 # Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
 FIGURES := demo-figure bench-frames bench-roof bench-stages bench-surfaces bench-time bench-sampled \
-           depth-traffic hi-z-kills hi-z-machines quad-merging reference-figure what-if what-if-demo what-if-lod \
-           ledger-demo ledger-frames
+           depth-traffic hi-z-kills hi-z-by-time hi-z-machines quad-merging reference-figure what-if what-if-demo \
+           what-if-lod ledger-demo ledger-frames
 .PHONY: docs-figures ledger-picture $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool

@@ -175,6 +175,24 @@ def hi_z_kills(tools):
     return f"{command}\n\n{method[0].upper()}{method[1:]}.\n\n{marked(rows, map(frame_name, tools.captured))}"
 
 
+def hi_z_by_time(tools):
+    """What hi_z would stop, and what the frame would take, if it decided by time; on the named machines."""
+    machines = sorted((ROOT / "configs").glob("*.toml"))
+    inputs = [*SCENES[:1], *tools.captured, "synthetic:large_ftb:full"]
+    cells = {}  # by frame
+    for machine in machines:
+        options = ["--bits", "8", "--lags", "128", "--config", machine]
+        table_rows = output(tools.program, "bench", "hi-z", *inputs, *options).split("\n\n", 1)[1].splitlines()[2:]
+        for row in table_rows:
+            name, *_, by_order, by_time, before, after = [cell.strip() for cell in row.strip("|").split("|")]
+            kills = f"{by_order.removesuffix(' %')} to {by_time}"
+            cells.setdefault(name, []).append(f"{kills}, {int(after) / int(before):.3f}")
+    text = ["    halfspace bench hi-z FRAME... --bits 8 --lags 128 --config MACHINE", ""]
+    text += [f"| frame | {' | '.join(machine.stem for machine in machines)} |", "|---|" + "---:|" * len(machines)]
+    text += [f"| {name} | {' | '.join(row)} |" for name, row in cells.items()]
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
 def hi_z_machines(tools):
     """Cycles and bytes of depth with hi_z and without, on the named machines."""
     machines = sorted((ROOT / "configs").glob("*.toml"))
@@ -384,6 +402,7 @@ FIGURES = {
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
     "depth-traffic": ("docs/units/z_codec.md", depth_traffic),
     "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
+    "hi-z-by-time": ("docs/units/hi_z.md", hi_z_by_time),
     "hi-z-machines": ("docs/units/hi_z.md", hi_z_machines),
     "quad-merging": ("docs/guides/quad_merging.md", quad_merging),
     "reference": ("docs/guides/reference.md", reference),

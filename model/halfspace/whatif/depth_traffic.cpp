@@ -5,10 +5,8 @@
 
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/hi_z.hpp"
-#include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/tile_walker.hpp"
 #include "halfspace/machine/passage/z_lookup.hpp"
-#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/machine/tile_size.hpp"
 #include "halfspace/units/z_cache.hpp"
@@ -63,22 +61,16 @@ class Traffic {
 
  private:
   void tile(const Coverage& coverage) {
-    DrawContext& draw = *at_.draw;
-    HiZUpdate update;
-    if (any(coverage.mask)) {
-      std::uint32_t* const stored =
-          at_.surface == nullptr ? nullptr : at_.surface->codes.tile(coverage.tile_x, coverage.tile_y);
-      const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
-      const TileMask passed = passage::z_test<TileSize>(at_.triangle, burst, draw, stored, codes_);
-      if (touches_depth(draw.early_z)) {
-        const ZAccess access =
-            passage::z_access<TileSize>(coverage, passed, stored, draw, places_[draw.surface], config_);
-        look_up(coverage, access, stored);
-        update = hi_z_update<TileSize>(stored, access.touched, config_.z_cache.parts);
-      }
+    const WalkedTile tile = draw_tile<TileSize>(at_, coverage, config_, codes_);
+    if (tile.touches) {
+      const std::uint32_t* const stored = at_.stored(coverage);
+      look_up(coverage,
+              passage::z_access<TileSize>(coverage, tile.passed, stored, *at_.draw,
+                                          places_[at_.draw->surface], config_),
+              stored);
     }
     if (config_.hi_z.enabled) {
-      hi_z_.retire(update);
+      hi_z_.retire(tile.update);
     }
   }
 

@@ -11,8 +11,12 @@
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/frame_source.hpp"
 #include "halfspace/machine/passage/block_walker.hpp"
+#include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
+#include "halfspace/machine/passage/z_lookup.hpp"
+#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/units/hi_z.hpp"
 
 namespace halfspace::whatif {
 
@@ -21,7 +25,41 @@ struct WalkedDraw {
   DrawContext* draw = nullptr;
   Surface* surface = nullptr;  ///< null where the target has no depth
   SetupTriangle triangle;      ///< the last that was drawn
+
+  /// What is stored in a tile; null where the target has no depth.
+  [[nodiscard]] std::uint32_t* stored(const Coverage& coverage) const {
+    return surface == nullptr ? nullptr : surface->codes.tile(coverage.tile_x, coverage.tile_y);
+  }
 };
+
+/// What became of a tile job of the draw at work.
+struct WalkedTile {
+  int quads = 0;         ///< 0: no sample is covered
+  bool touches = false;  ///< its burst has to do with stored depth
+  TileMask passed;
+  HiZUpdate update;
+};
+
+/// Draws a tile job. `codes` is filled where its draw tests depth.
+template <int TileSize>
+WalkedTile draw_tile(const WalkedDraw& at, const Coverage& coverage, const Config& config,
+                     TileCodes<TileSize>& codes) {
+  WalkedTile tile;
+  if (any(coverage.mask)) {
+    DrawContext& draw = *at.draw;
+    std::uint32_t* const stored = at.stored(coverage);
+    const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
+    tile.quads = burst.quads;
+    tile.passed = passage::z_test<TileSize>(at.triangle, burst, draw, stored, codes);
+    tile.touches = touches_depth(draw.early_z);
+    if (tile.touches) {
+      const int parts = config.z_cache.parts;
+      tile.update =
+          hi_z_update<TileSize>(stored, passage::touched_parts<TileSize>(coverage, draw, parts), parts);
+    }
+  }
+  return tile;
+}
 
 /// Calls `study`, in order: clear(surface, code) for a clear by the z cache; dropped() and drawn() for the
 /// triangles at setup; for those that are drawn block(job, empty_before), and walked(empty_after) behind the

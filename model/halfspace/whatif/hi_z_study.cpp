@@ -6,10 +6,8 @@
 #include <stdexcept>
 
 #include "halfspace/machine/passage/edge_evaluator.hpp"
-#include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/tile_walker.hpp"
 #include "halfspace/machine/passage/z_lookup.hpp"
-#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/machine/tile_size.hpp"
 #include "halfspace/units/hi_z.hpp"
@@ -121,15 +119,6 @@ class Study {
   }
 
  private:
-  /// A tile job behind hi_z.
-  struct Done {
-    int quads = 0;  ///< of its burst, if it has one
-    std::uint32_t* stored = nullptr;
-    TileMask passed;
-    HiZUpdate update;
-    bool touches = false;  ///< has to do with stored depth
-  };
-
   template <class Act>
   void each_timed(const Act& act) {
     for (Unit& unit : units_) {
@@ -140,26 +129,12 @@ class Study {
   }
 
   void tile(const BlockJob& block, int number, const Coverage& coverage) {
-    Done done;
-    bool dead = false;
-    if (any(coverage.mask)) {
-      DrawContext& draw = *at_.draw;
-      done.stored =
-          at_.surface == nullptr ? nullptr : at_.surface->codes.tile(coverage.tile_x, coverage.tile_y);
-      const CodeBounds before = draw.early_z.test ? bounds(done.stored) : CodeBounds{};
-      const Burst burst = passage::quad_generator<TileSize>(coverage, draw);
-      done.quads = burst.quads;
-      done.passed = passage::z_test<TileSize>(at_.triangle, burst, draw, done.stored, codes_);
-      if (draw.early_z.test) {
-        dead = !any(done.passed);
-        count(block, number, coverage, before, dead);
-      }
-      done.touches = touches_depth(draw.early_z);
-      if (done.touches) {
-        const int parts = config_.z_cache.parts;
-        done.update = hi_z_update<TileSize>(done.stored,
-                                            passage::touched_parts<TileSize>(coverage, draw, parts), parts);
-      }
+    const bool tests = any(coverage.mask) && at_.draw->early_z.test;
+    const CodeBounds before = tests ? bounds(at_.stored(coverage)) : CodeBounds{};
+    const WalkedTile done = draw_tile<TileSize>(at_, coverage, config_, codes_);
+    const bool dead = tests && !any(done.passed);
+    if (tests) {
+      count(block, number, coverage, before, dead);
     }
     for (std::size_t i = 0; i < units_.size(); ++i) {
       Unit& unit = units_[i];
@@ -177,12 +152,13 @@ class Study {
   }
 
   /// `sure`: hi_z knew that every sample passes.
-  void go_on(HiZInTime& timed, bool sure, Coverage coverage, const Done& done) const {
+  void go_on(HiZInTime& timed, bool sure, Coverage coverage, const WalkedTile& done) const {
     coverage.sure = sure ? 1 : 0;
     const ZSurface* const place = done.touches ? &places_[at_.draw->surface] : nullptr;
-    const ZAccess access = done.touches ? passage::z_access<TileSize>(coverage, done.passed, done.stored,
-                                                                      *at_.draw, *place, config_)
-                                        : ZAccess{};
+    const ZAccess access = done.touches
+                               ? passage::z_access<TileSize>(coverage, done.passed, at_.stored(coverage),
+                                                             *at_.draw, *place, config_)
+                               : ZAccess{};
     timed.job(done.quads, coverage, place, access, done.update);
   }
 
