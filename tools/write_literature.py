@@ -139,7 +139,7 @@ def compressed_cache(tools):
 def compression(tools):
     rows, ours = {}, {}
     cube = [Case(str(path), frame_name(path)) for path in SCENES if frame_name(path) == NOTHING_HIDDEN]
-    found = [*cube, *cases(tools, *RANDOM, "synthetic:tiny_grid:full")]
+    found = [*cube, *cases(tools, *RANDOM, "synthetic:tiny_grid:full", *ORDERED)]
     text = output(tools.program, "bench", "depth-traffic", *(case.source for case in found))
     moved = [line for line in text.splitlines() if "| moved |" in line]
     for case, line in zip(found, moved, strict=True):
