@@ -1,6 +1,7 @@
 #include "halfspace/whatif/depth_traffic.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "halfspace/machine/passage/edge_evaluator.hpp"
