@@ -65,6 +65,10 @@ bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and l
 	.venv/bin/python tools/plot_speed.py out/speed/speed.json docs/images/speed.svg
 	tools/write_figures.py bench-speed
 
+.PHONY: bench-literature
+bench-literature: release-program ## Measure what published mechanisms save on our frames; write docs/guides/literature.md's tables.
+	tools/write_literature.py --captured $(CAPTURED)
+
 .PHONY: bench-profile
 bench-profile: build/release/build.ninja ## Sample where the fast core spends its time, with perf; write docs/guides/speed.md's table.
 	cmake --preset profile --log-level=WARNING
@@ -131,8 +135,8 @@ clean: ## Remove everything that was built.
 
 # Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
 FIGURES := demo-figure bench-frames bench-roof bench-stages bench-surfaces bench-time bench-sampled \
-           hi-z-kills hi-z-machines late-z small-triangles quad-merging reference-figure what-if what-if-demo what-if-lod \
-           ledger-demo ledger-frames
+           depth-traffic hi-z-kills hi-z-by-time hi-z-machines late-z small-triangles quad-merging reference-figure \
+           what-if what-if-demo what-if-lod ledger-demo ledger-frames
 .PHONY: docs-figures ledger-picture $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool

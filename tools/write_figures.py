@@ -175,6 +175,24 @@ def hi_z_kills(tools):
     return f"{command}\n\n{method[0].upper()}{method[1:]}.\n\n{marked(rows, map(frame_name, tools.captured))}"
 
 
+def hi_z_by_time(tools):
+    """What hi_z would stop, and what the frame would take, if it decided by time; on the named machines."""
+    machines = sorted((ROOT / "configs").glob("*.toml"))
+    inputs = [*SCENES[:1], *tools.captured, "synthetic:large_ftb:full"]
+    cells = {}  # by frame
+    for machine in machines:
+        options = ["--bits", "8", "--lags", "128", "--config", machine]
+        table_rows = output(tools.program, "bench", "hi-z", *inputs, *options).split("\n\n", 1)[1].splitlines()[2:]
+        for row in table_rows:
+            name, *_, by_order, by_time, before, after = [cell.strip() for cell in row.strip("|").split("|")]
+            kills = f"{by_order.removesuffix(' %')} to {by_time}"
+            cells.setdefault(name, []).append(f"{kills}, {int(after) / int(before):.3f}")
+    text = ["    halfspace bench hi-z FRAME... --bits 8 --lags 128 --config MACHINE", ""]
+    text += [f"| frame | {' | '.join(machine.stem for machine in machines)} |", "|---|" + "---:|" * len(machines)]
+    text += [f"| {name} | {' | '.join(row)} |" for name, row in cells.items()]
+    return marked("\n".join(text), map(frame_name, tools.captured))
+
+
 def hi_z_machines(tools):
     """Cycles and bytes of depth with hi_z and without, on the named machines."""
     machines = sorted((ROOT / "configs").glob("*.toml"))
@@ -197,6 +215,38 @@ def hi_z_machines(tools):
         rows.append(f"| {name} | {' | '.join(cells)} | {bytes_cell} |")
     command = "    halfspace run FRAME --fidelity recurrence --config MACHINE --set hi_z.enabled=false|true"
     return f"{command}\n\n{marked(chr(10).join(rows), map(frame_name, tools.captured))}"
+
+
+def depth_traffic(tools):
+    """Bytes of depth, coded and raw, of each frame, and the lines and ratio of each form."""
+    rows = output(tools.program, "bench", "depth-traffic", *SCENES, *tools.captured).split("\n\n", 1)[1]
+    frames = {}
+    for line in rows.splitlines()[2:]:
+        name, line_class, *numbers = [cell.strip() for cell in line.strip("|").split("|")]
+        frames.setdefault(name, {})[line_class] = [int(number) for number in numbers[:6]]
+    columns = ["raw, bytes", "stored, bytes", "ratio", "ratio, read", "ratio, written"]
+    columns += ["plane: lines", "ratio", "ends: lines", "ratio", "raw: lines", "cleared: lines"]
+    text = ["    halfspace bench depth-traffic FRAME...", ""]
+    text += [f"| frame | {' | '.join(columns)} |", "|---|" + "---:|" * len(columns)]
+    for name, classes in frames.items():
+
+        def total(prefix, ways=(0, 1)):
+            """Lines, raw and stored bytes of these classes; ways: 0 read, 1 written."""
+            found = [numbers for each, numbers in classes.items() if each.startswith(prefix)]
+            return [sum(numbers[3 * way + i] for numbers in found for way in ways) for i in range(3)]
+
+        def ratio(counts):
+            return f"{counts[1] / counts[2]:.2f}" if counts[2] else "-"
+
+        moved = total("moved")
+        lines = moved[0] + total("cleared")[0]
+        cells = [f"{moved[1]:,}", f"{moved[2]:,}", ratio(moved)]
+        cells += [ratio(total("moved", [way])) for way in (0, 1)]
+        for form in ("plane", "ends"):
+            cells += [f"{100 * total(form)[0] / lines:.1f} %", ratio(total(form))]
+        cells += [f"{100 * total(each)[0] / lines:.1f} %" for each in ("raw", "cleared")]
+        text.append(f"| {name} | {' | '.join(cells)} |")
+    return marked("\n".join(text), map(frame_name, tools.captured))
 
 
 def merging_counts(tools, source, held, folder):
@@ -417,7 +467,9 @@ FIGURES = {
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
+    "depth-traffic": ("docs/units/z_codec.md", depth_traffic),
     "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
+    "hi-z-by-time": ("docs/units/hi_z.md", hi_z_by_time),
     "hi-z-machines": ("docs/units/hi_z.md", hi_z_machines),
     "late-z": ("docs/units/early_z.md", late_z),
     "small-triangles": ("docs/units/block_walker.md", small_triangles),
@@ -441,12 +493,18 @@ SLOW = ("depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profil
 ALL = [name for name in FIGURES if name not in SLOW]
 
 
-def main():
+def main(known, default, description):
+    """Writes the figures that the command line names into their pages, or those of `default`.
+
+    known: by name the page and the function that makes the text.
+    """
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    names = ", ".join(FIGURES)
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: all but the last seven)")
+    names = ", ".join(known)
+    others = ", ".join(name for name in known if name not in default)
+    which = f"all but {others}" if others else "all"
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: {which})")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")
@@ -465,16 +523,16 @@ def main():
         help="frames that do not ship",
     )
     options = parser.parse_args()
-    captured = [path.resolve() for path in options.captured]
+    captured = tuple(path.resolve() for path in options.captured)
     tools = Tools(
         options.program.resolve(), options.reference.resolve(), options.depth_error.resolve(), captured
     )
     stale = False
     for name in options.figures:
-        if name not in FIGURES:
+        if name not in known:
             parser.error(f"figure is '{name}'; legal: {names}")
-    for name in options.figures or ALL:
-        page, figure = FIGURES[name]
+    for name in options.figures or default:
+        page, figure = known[name]
         try:
             text = figure(tools)
         except (OSError, subprocess.CalledProcessError) as failure:
@@ -484,7 +542,7 @@ def main():
         after = replaced(before, name, text, path)
         if options.check:
             stale = stale or before != after
-            print(f"{page}: {name} is {f'stale: run `tools/write_figures.py {name}`' if before != after else 'current'}")
+            print(f"{page}: {name} is {f'stale: run `{sys.argv[0]} {name}`' if before != after else 'current'}")
         else:
             path.write_text(after)
             print(f"{name}: {page}")
@@ -492,4 +550,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(FIGURES, ALL, __doc__)

@@ -37,8 +37,9 @@ Codes random_line(Random& random, const ZCodecShape& shape) {
   return codes;
 }
 
-/// Whether the codes fit into `bytes`, from the definition of the forms alone, by trying every base.
-bool fits(const Codes& codes, const ZCodecShape& shape, int bytes) {
+/// The form in which the codes fit into `bytes`, from the definition of the forms alone, by trying every
+/// base.
+ZForm form_in(const Codes& codes, const ZCodecShape& shape, int bytes) {
   const int bits = 8 * shape.sample_bytes;
   const std::uint64_t modulus = std::uint64_t{1} << bits;
   const auto half = [](std::int64_t numerator, int size) {
@@ -66,14 +67,15 @@ bool fits(const Codes& codes, const ZCodecShape& shape, int bytes) {
   const auto [lowest, highest] = std::minmax_element(above.begin(), above.end());
   const int plane_bits = (8 * bytes - 1 - 3 * bits) / shape.samples();
   if (*highest - *lowest < std::int64_t{1} << plane_bits) {
-    return true;
+    return ZForm::kPlane;
   }
   const auto [least, most] = std::minmax_element(codes.begin(), codes.end());
   const int ends_bits = (8 * bytes - 1 - 2 * bits - shape.samples()) / shape.samples();
-  return std::all_of(codes.begin(), codes.end(), [&, l = *least, m = *most](std::uint32_t c) {
+  const bool ends = std::all_of(codes.begin(), codes.end(), [&, l = *least, m = *most](std::uint32_t c) {
     return std::uint64_t{c} - l < std::uint64_t{1} << ends_bits || std::uint64_t{m} - c < std::uint64_t{1}
                                                                                               << ends_bits;
   });
+  return ends ? ZForm::kEnds : ZForm::kPlain;
 }
 
 }  // namespace
@@ -93,10 +95,16 @@ TEST_CASE("z_codec: loses nothing, and is as small as its forms allow", "[proper
     z_decode(bytes, shape, back);
     REQUIRE(back == codes);
     int shift = kMostCodedShift;
-    while (shift > 0 &&
-           (shape.bytes() >> shift < kLeastCodedBytes || !fits(codes, shape, shape.bytes() >> shift))) {
-      --shift;
+    ZForm form = ZForm::kPlain;
+    for (; shift > 0; --shift) {
+      form = shape.bytes() >> shift < kLeastCodedBytes ? ZForm::kPlain
+                                                       : form_in(codes, shape, shape.bytes() >> shift);
+      if (form != ZForm::kPlain) {
+        REQUIRE((bytes[0] & 1) == static_cast<int>(form));
+        break;
+      }
     }
+    REQUIRE(z_coded_class(codes, shape) == ZCodedClass{.form = form, .shift = shift});
     REQUIRE(z_coded_shift(codes, shape) == shift);
     REQUIRE(static_cast<int>(bytes.size()) == shape.bytes() >> shift);
     ++lines[static_cast<std::size_t>(shift)];

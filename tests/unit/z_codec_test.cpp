@@ -121,6 +121,26 @@ TEST_CASE("z_codec: how far lines shrink") {
   CHECK(z_coded_shift(Codes(16, 0), {.width = 4, .height = 4}) == 1);
 }
 
+TEST_CASE("z_codec: the class of a line is its form and its size") {
+  const ZCodecShape tile;
+  const auto is = [&](const Codes& codes, ZForm form, int shift) {
+    return z_coded_class(codes, tile) == ZCodedClass{.form = form, .shift = shift};
+  };
+  Codes line(64, 12345);
+  CHECK(is(line, ZForm::kPlane, 3));  // both forms fit
+  line = plane(tile, 13, 7);
+  CHECK(is(line, ZForm::kPlane, 3));
+  line[20] += 40;
+  CHECK(is(line, ZForm::kPlane, 2));  // both fit again
+  line[20] += 10000;
+  CHECK(is(line, ZForm::kEnds, 2));
+  line = Codes(64, 12345);
+  line[20] = 0x40000000;  // two layers, each flat
+  CHECK(is(line, ZForm::kEnds, 3));
+  line[40] = 0x20000000;
+  CHECK(is(line, ZForm::kPlain, 0));
+}
+
 TEST_CASE("z_codec: a line that does not shrink is its codes, little endian") {
   const ZCodecShape shape{.width = 4, .height = 4};
   Codes codes(16);

@@ -14,6 +14,7 @@ void add_bench_command(CLI::App& app, int& status) {
   add_bench_roof(*bench);
   add_bench_stages(*bench);
   add_bench_surfaces(*bench);
+  add_bench_depth_traffic(*bench);
   add_bench_hi_z(*bench);
   add_bench_time(*bench);
   add_bench_sampled(*bench);

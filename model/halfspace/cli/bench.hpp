@@ -30,6 +30,7 @@ void add_bench_speed(CLI::App& bench);
 void add_bench_roof(CLI::App& bench);
 void add_bench_stages(CLI::App& bench);
 void add_bench_surfaces(CLI::App& bench);
+void add_bench_depth_traffic(CLI::App& bench);
 void add_bench_hi_z(CLI::App& bench);
 void add_bench_time(CLI::App& bench);
 void add_bench_sampled(CLI::App& bench);

@@ -1,4 +1,5 @@
-/// halfspace bench hi-z: the share of an oracle's kills that hi_z has, by bits of a bound and lag.
+/// halfspace bench hi-z: the share of an oracle's kills that hi_z has, by bits of a bound and lag, and by
+/// time.
 #include <fmt/format.h>
 
 #include <memory>
@@ -32,15 +33,21 @@ void bench_hi_z(const HiZOptions& options) {
     for (const int lag : options.lags) {
       choices.push_back({.bits = bits, .lag = lag});
     }
+    choices.push_back({.bits = bits, .lag = config.hi_z.lag, .timed = true});
+    choices.push_back({.bits = bits, .lag = std::nullopt});
   }
+  const std::size_t row = options.lags.size() + 2;
   std::string head = "| frame | bursts that test | die | first oracle | second oracle | bits |";
   std::string rule = "|---|---:|---:|---:|---:|---:|";
   for (const int lag : options.lags) {
     head += fmt::format(" lag {} |", lag);
     rule += "---:|";
   }
+  head += fmt::format(" by time | cycles, lag {} | cycles, by time |", config.hi_z.lag);
+  rule += "---:|---:|---:|";
   fmt::print(
-      "die: of all bursts; oracles: of those that die; by lag: of those that the second oracle kills\n\n");
+      "die: of all bursts; oracles: of those that die; by lag and by time: of those that the second oracle "
+      "kills\n\n");
   fmt::print("{}\n{}\n", head, rule);
   for (const std::string& input : options.inputs) {
     const Frame frame = load(input);
@@ -50,9 +57,11 @@ void bench_hi_z(const HiZOptions& options) {
                  share(kills.oracle_samples, kills.dead), share(kills.oracle_plane, kills.dead),
                  options.bits[i]);
       for (std::size_t k = 0; k < options.lags.size(); ++k) {
-        fmt::print(" {} |", share(kills.choices[i * options.lags.size() + k], kills.oracle_plane));
+        fmt::print(" {} |", share(kills.choices[i * row + k], kills.oracle_plane));
       }
-      fmt::print("\n");
+      const std::size_t by_time = i * row + row - 1;
+      fmt::print(" {} | {} | {} |\n", share(kills.choices[by_time], kills.oracle_plane),
+                 kills.cycles[by_time - 1], kills.cycles[by_time]);
     }
   }
 }
@@ -62,7 +71,7 @@ void bench_hi_z(const HiZOptions& options) {
 void add_bench_hi_z(CLI::App& bench) {
   auto options = std::make_shared<HiZOptions>();
   CLI::App* command =
-      bench.add_subcommand("hi-z", "the bursts that hi_z stops, beside an oracle, by bits and lag");
+      bench.add_subcommand("hi-z", "the bursts that hi_z stops, beside an oracle, by bits, lag and time");
   command->add_option("INPUT", options->inputs, "frames (PTF1) or synthetic:NAME")->required();
   options->machine.add_to(*command);
   command->add_option("--bits", options->bits, "bits of a bound")

@@ -24,7 +24,7 @@ struct Surface {
   /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
   /// where no draw writes depth, the one that passed last. Kept on request.
   TiledImage<std::uint32_t> visible;
-  PacketSums sums;    ///< on request
+  PacketSums sums;        ///< on request
   Counters counters;      ///< of all draws on the surface
   Counters drawn_clears;  ///< of its clears that went through the pipe as rectangles
 };

@@ -123,6 +123,10 @@ class HiZ {
                  const HiZSurface& surface);
   void retire(const HiZUpdate& update) { retired_.push_back(update); }
 
+  /// The blocks to come see the first `jobs`, at least as many as before. They must have retired. decide()
+  /// does that by the rule; this is for studies of another rule.
+  void see(std::uint64_t jobs);
+
   /// The whole surface now holds `code`. All jobs must have retired.
   void clear(const HiZSurface& surface, std::uint32_t code);
 
@@ -137,7 +141,6 @@ class HiZ {
   /// What the word of a block is; untouched memory says that nothing is known.
   enum class WordState : std::uint8_t { kUnknown, kCleared, kStored };
 
-  void see(std::uint64_t jobs);
   [[nodiscard]] HiZWord word(std::uint32_t block) const;
   [[nodiscard]] CodeBounds bounds(const HiZWord& word, std::size_t tile) const;
 

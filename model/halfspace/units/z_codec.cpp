@@ -7,8 +7,6 @@
 namespace halfspace {
 namespace {
 
-enum class Form : std::uint8_t { kPlane, kEnds };
-
 /// A string of bits, the lowest of byte 0 first.
 class BitWriter {
  public:
@@ -111,20 +109,20 @@ struct Coded {
     ends_bits = std::bit_width(farthest);
   }
 
-  [[nodiscard]] bool plane_fits(const ZCodecShape& shape, int bytes) const {
-    return plane_bits <= plane_offset_bits(shape, bytes);
-  }
-  [[nodiscard]] bool fits(const ZCodecShape& shape, int bytes) const {
-    return plane_fits(shape, bytes) || ends_bits <= ends_offset_bits(shape, bytes);
-  }
-  [[nodiscard]] int shift(const ZCodecShape& shape) const {
+  [[nodiscard]] ZCodedClass line_class(const ZCodecShape& shape) const {
     for (int shift = kMostCodedShift; shift > 0; --shift) {
       const int bytes = shape.bytes() >> shift;
-      if (bytes >= kLeastCodedBytes && fits(shape, bytes)) {
-        return shift;
+      if (bytes < kLeastCodedBytes) {
+        continue;
+      }
+      if (plane_bits <= plane_offset_bits(shape, bytes)) {
+        return {.form = ZForm::kPlane, .shift = shift};
+      }
+      if (ends_bits <= ends_offset_bits(shape, bytes)) {
+        return {.form = ZForm::kEnds, .shift = shift};
       }
     }
-    return 0;
+    return {};
   }
 };
 
@@ -138,22 +136,26 @@ int ends_offset_bits(const ZCodecShape& shape, int bytes) {
   return (8 * bytes - 1 - 2 * code_bits(shape)) / shape.samples() - 1;
 }
 
+ZCodedClass z_coded_class(std::span<const std::uint32_t> codes, const ZCodecShape& shape) {
+  return Coded(codes, shape).line_class(shape);
+}
+
 int z_coded_shift(std::span<const std::uint32_t> codes, const ZCodecShape& shape) {
-  return Coded(codes, shape).shift(shape);
+  return z_coded_class(codes, shape).shift;
 }
 
 void z_encode(std::span<const std::uint32_t> codes, const ZCodecShape& shape,
               std::vector<std::uint8_t>& bytes) {
   const Coded coded(codes, shape);
-  const int shift = coded.shift(shape);
-  const int size = shape.bytes() >> shift;
+  const ZCodedClass line = coded.line_class(shape);
+  const int size = shape.bytes() >> line.shift;
   BitWriter writer(bytes, size);
-  if (shift == 0) {
+  if (line.form == ZForm::kPlain) {
     for (const std::uint32_t code : codes) {
       writer.put(code, code_bits(shape));
     }
-  } else if (coded.plane_fits(shape, size)) {
-    writer.put(static_cast<std::uint32_t>(Form::kPlane), 1);
+  } else if (line.form == ZForm::kPlane) {
+    writer.put(static_cast<std::uint32_t>(ZForm::kPlane), 1);
     writer.put(coded.base, code_bits(shape));
     writer.put(coded.plane.dx, code_bits(shape));
     writer.put(coded.plane.dy, code_bits(shape));
@@ -162,7 +164,7 @@ void z_encode(std::span<const std::uint32_t> codes, const ZCodecShape& shape,
                  plane_offset_bits(shape, size));
     }
   } else {
-    writer.put(static_cast<std::uint32_t>(Form::kEnds), 1);
+    writer.put(static_cast<std::uint32_t>(ZForm::kEnds), 1);
     writer.put(coded.least, code_bits(shape));
     writer.put(coded.most, code_bits(shape));
     for (const std::uint32_t code : codes) {
@@ -184,10 +186,10 @@ void z_decode(std::span<const std::uint8_t> bytes, const ZCodecShape& shape,
     }
     return;
   }
-  const Form form{static_cast<std::uint8_t>(reader.take(1))};
+  const ZForm form{static_cast<std::uint8_t>(reader.take(1))};
   const std::uint32_t first = reader.take(code_bits(shape));
   const std::uint32_t second = reader.take(code_bits(shape));
-  if (form == Form::kEnds) {
+  if (form == ZForm::kEnds) {
     for (std::uint32_t& code : codes) {
       const std::uint32_t offset = reader.take(ends_offset_bits(shape, size));
       code = (reader.take(1) != 0 ? second - offset : first + offset) & code_mask(shape);

@@ -44,7 +44,21 @@ struct ZCodecShape {
 int plane_offset_bits(const ZCodecShape& shape, int bytes);
 int ends_offset_bits(const ZCodecShape& shape, int bytes);
 
-/// The shift of a line: the largest with which one of the forms holds its codes (row order, below 2^C).
+/// What a line is in memory. The first two have the bit that begins a coded line; a plain line has none.
+enum class ZForm : std::uint8_t { kPlane, kEnds, kPlain };
+
+/// The class of a line. Its bytes tell the shift, but not the form: only the encoder knows both.
+struct ZCodedClass {
+  ZForm form = ZForm::kPlain;
+  int shift = 0;  ///< 0 where plain, and only there
+  friend bool operator==(const ZCodedClass&, const ZCodedClass&) = default;
+};
+
+/// The class of a line (codes in row order, below 2^C): the largest shift with which one of the forms holds
+/// it, the plane where both do.
+ZCodedClass z_coded_class(std::span<const std::uint32_t> codes, const ZCodecShape& shape);
+
+/// Its shift.
 int z_coded_shift(std::span<const std::uint32_t> codes, const ZCodecShape& shape);
 
 /// The line in memory, in shape.bytes() >> z_coded_shift() bytes: the plane where both forms fit, little

@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <deque>
-#include <optional>
+#include <memory>
+#include <stdexcept>
 
-#include "halfspace/machine/draw_state.hpp"
-#include "halfspace/machine/frame_source.hpp"
-#include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
-#include "halfspace/machine/passage/quad_generator.hpp"
-#include "halfspace/machine/passage/setup.hpp"
 #include "halfspace/machine/passage/tile_walker.hpp"
 #include "halfspace/machine/passage/z_lookup.hpp"
-#include "halfspace/machine/passage/z_test.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/machine/tile_size.hpp"
 #include "halfspace/units/hi_z.hpp"
+#include "halfspace/whatif/frame_walk.hpp"
+#include "halfspace/whatif/hi_z_in_time.hpp"
 
 namespace halfspace::whatif {
 namespace {
@@ -43,97 +39,127 @@ bool none_passes(DepthFunc func, const CodeBounds& codes, const CodeBounds& stor
   return false;
 }
 
+/// A choice at work: hi_z alone, or with the recurrence.
+struct Unit {
+  HiZ hi_z;
+  std::unique_ptr<HiZInTime> timed;
+  HiZ::Verdict verdict;  ///< of the block at work
+};
+
 template <int TileSize>
 class Study {
  public:
   Study(const Frame& frame, const Config& config, const std::vector<HiZChoice>& choices)
-      : frame_(frame), config_(config), walk_(walker_config(config)), walker_(walk_) {
+      : frame_(frame), config_(config), walk_(walker_config(config)) {
     result_.surfaces = make_surfaces(frame, config, Watch{});
-    places_ = place_blocks(result_.surfaces, config);
+    blocks_ = place_blocks(result_.surfaces, config);
+    places_ = place_surfaces(result_.surfaces, config);
     for (const HiZChoice& choice : choices) {
-      Config machine = config;
-      machine.hi_z.bits = choice.bits;
-      machine.hi_z.lag = choice.lag;
-      units_.push_back(make_hi_z(places_, machine));
+      Unit& unit = units_.emplace_back();
+      if (choice.timed || !choice.lag) {
+        unit.timed = std::make_unique<HiZInTime>(config, choice.bits, choice.lag, blocks_, places_);
+      } else {
+        Config machine = config;
+        machine.hi_z.bits = choice.bits;
+        machine.hi_z.lag = *choice.lag;
+        unit.hi_z = make_hi_z(blocks_, machine);
+      }
     }
-    rejected_.resize(units_.size());
     kills_.choices.resize(units_.size());
   }
 
   HiZKills run() {
-    FrameSource source(frame_, config_, nullptr, result_.surfaces, result_, draws_);
-    for (std::uint32_t i = 0; i < frame_.commands.size(); ++i) {
-      draw_ = source.begin(i);
-      surface_ =
-          draw_ == nullptr || draw_->surface == kNoSurface ? nullptr : &result_.surfaces[draw_->surface];
-      while (const std::optional<SourceItem> item = source.next()) {
-        if (item->draw == nullptr) {
-          clear(item->surface, item->code);
-          continue;
-        }
-        for (const ScreenTriangle& triangle : item->triangles) {
-          if (passage::setup(triangle, *draw_, triangle_)) {
-            walker_.walk<TileSize>(triangle_, *draw_,
-                                   [this](const BlockJob& job, std::uint32_t /*empty*/) { block(job); });
-          }
-        }
-      }
+    walk_frame<TileSize>(frame_, config_, result_, at_, *this);
+    for (Unit& unit : units_) {
+      kills_.cycles.push_back(unit.timed ? unit.timed->finish() : 0);
     }
     return std::move(kills_);
   }
 
- private:
+  // See walk_frame().
   void clear(std::uint32_t surface, std::uint32_t code) {
-    clear_surface(result_.surfaces[surface], code);
-    for (HiZ& unit : units_) {
-      unit.clear(places_[surface], code);
+    for (Unit& unit : units_) {
+      if (unit.timed) {
+        unit.timed->clear(places_[surface], blocks_[surface], code);
+      } else {
+        unit.hi_z.clear(blocks_[surface], code);
+      }
     }
   }
 
-  [[nodiscard]] HiZSurface place() const {
-    return draw_->surface == kNoSurface ? HiZSurface{} : places_[draw_->surface];
+  void dropped() {
+    each_timed([](HiZInTime& timed) { timed.dropped(); });
+  }
+  void drawn() {
+    each_timed([](HiZInTime& timed) { timed.drawn(); });
+  }
+  void walked(std::uint32_t empty_after) {
+    each_timed([&](HiZInTime& timed) { timed.walked(empty_after); });
   }
 
-  void block(const BlockJob& block) {
-    for (std::size_t i = 0; i < units_.size(); ++i) {
-      rejected_[i] = units_[i].decide(block, triangle_.depth, draw_->early_z, place()).rejected;
+  void block(const BlockJob& block, std::uint32_t empty_before) {
+    const DrawContext& draw = *at_.draw;
+    const HiZSurface place = draw.surface == kNoSurface ? HiZSurface{} : blocks_[draw.surface];
+    for (Unit& unit : units_) {
+      unit.verdict = unit.timed
+                         ? unit.timed->block(block, empty_before, at_.triangle.depth, draw.early_z, place)
+                         : unit.hi_z.decide(block, at_.triangle.depth, draw.early_z, place);
     }
     std::uint64_t left = block.tiles;
-    passage::tile_walker<TileSize>(block, walk_, *draw_, [&](const TileJob& job, bool whole) {
+    passage::tile_walker<TileSize>(block, walk_, *at_.draw, [&](const TileJob& job, bool whole) {
       const int number = std::countr_zero(left);
       left &= left - 1;
-      tile(block, number, passage::edge_evaluator<TileSize>(job, whole, *draw_));
+      tile(block, number, passage::edge_evaluator<TileSize>(job, whole, *at_.draw));
     });
+    for (Unit& unit : units_) {
+      if (unit.timed && unit.verdict.rejected != block.tiles) {
+        unit.timed->block_done();
+      }
+    }
+  }
+
+ private:
+  template <class Act>
+  void each_timed(const Act& act) {
+    for (Unit& unit : units_) {
+      if (unit.timed) {
+        act(*unit.timed);
+      }
+    }
   }
 
   void tile(const BlockJob& block, int number, const Coverage& coverage) {
-    HiZUpdate update;
-    bool dead = false;
-    if (any(coverage.mask)) {
-      std::uint32_t* const stored =
-          surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
-      const CodeBounds before = draw_->early_z.test ? bounds(stored) : CodeBounds{};
-      const Burst burst = passage::quad_generator<TileSize>(coverage, *draw_);
-      const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
-      if (draw_->early_z.test) {
-        dead = !any(tested.passed);
-        count(block, number, coverage, before, dead);
-      }
-      if (touches_depth(draw_->early_z)) {
-        const int parts = config_.z_cache.parts;
-        update =
-            passage::hi_z_update<TileSize>(*draw_, triangle_.depth, stored,
-                                           passage::touched_parts<TileSize>(coverage, *draw_, parts), parts);
-        passage::write_late<TileSize>(tested, codes_, *draw_, stored);
-      }
+    const bool tests = any(coverage.mask) && at_.draw->early_z.test;
+    const CodeBounds before = tests ? bounds(at_.stored(coverage)) : CodeBounds{};
+    const WalkedTile done = draw_tile<TileSize>(at_, coverage, config_, codes_);
+    const bool dead = tests && !any(done.tested.passed);
+    if (tests) {
+      count(block, number, coverage, before, dead);
     }
     for (std::size_t i = 0; i < units_.size(); ++i) {
-      if ((rejected_[i] >> number & 1) == 0) {
-        units_[i].retire(update);
-      } else {
+      Unit& unit = units_[i];
+      if ((unit.verdict.rejected >> number & 1) != 0) {
+        if (done.quads != 0 && !dead) {
+          throw std::logic_error("hi_z: a tile was rejected in which a sample passes");
+        }
         kills_.choices[i] += dead ? 1 : 0;
+      } else if (unit.timed) {
+        go_on(*unit.timed, (unit.verdict.sure >> number & 1) != 0, coverage, done);
+      } else {
+        unit.hi_z.retire(done.update);
       }
     }
+  }
+
+  /// `sure`: hi_z knew that every sample passes.
+  void go_on(HiZInTime& timed, bool sure, Coverage coverage, const WalkedTile& done) const {
+    coverage.sure = sure ? 1 : 0;
+    const ZSurface* const place = done.touches ? &places_[at_.draw->surface] : nullptr;
+    const ZAccess access = done.touches
+                               ? passage::z_access<TileSize>(coverage, done.tested, at_.stored(coverage),
+                                                             *at_.draw, *place, config_)
+                               : ZAccess{};
+    timed.job(done.quads, coverage, place, access, done.update);
   }
 
   void count(const BlockJob& block, int tile, const Coverage& coverage, const CodeBounds& before, bool dead) {
@@ -148,10 +174,10 @@ class Study {
         burst = unite(burst, {.least = codes_[bit], .most = codes_[bit]});
       }
     }
-    const DepthFunc func = draw_->early_z.func;
+    const DepthFunc func = at_.draw->early_z.func;
     kills_.oracle_samples += none_passes(func, burst, before) ? 1 : 0;
-    const HiZOutcome outcome =
-        hi_z_outcome(hi_z_config(config_), block, tile, triangle_.depth, draw_->early_z, {.bounds = before});
+    const HiZOutcome outcome = hi_z_outcome(hi_z_config(config_), block, tile, at_.triangle.depth,
+                                            at_.draw->early_z, {.bounds = before});
     kills_.oracle_plane += outcome == HiZOutcome::kNonePasses ? 1 : 0;
   }
 
@@ -163,18 +189,12 @@ class Study {
   const Frame& frame_;
   const Config& config_;
   FrameResult result_;
-  std::vector<HiZSurface> places_;
-  std::deque<DrawContext> draws_;
+  std::vector<HiZSurface> blocks_;  ///< by surface
+  std::vector<ZSurface> places_;
   WalkerConfig walk_;
-  passage::BlockWalker walker_;
-  std::vector<HiZ> units_;
-  std::vector<std::uint64_t> rejected_;  ///< of the block at work, by unit
+  WalkedDraw at_;
+  std::vector<Unit> units_;
   HiZKills kills_;
-
-  // Of the draw at work.
-  DrawContext* draw_ = nullptr;
-  Surface* surface_ = nullptr;
-  SetupTriangle triangle_;
   TileCodes<TileSize> codes_{};
 };
 

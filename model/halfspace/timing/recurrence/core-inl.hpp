@@ -104,7 +104,11 @@ class RecurrenceCore {
 
   /// A block job, after `empty_before` blocks without a tile, of which hi_z leaves `jobs` tiles; where it
   /// leaves some, their jobs follow, then block_done().
-  HWY_INLINE void block(std::uint32_t empty_before, int jobs) {
+  HWY_INLINE void block(std::uint32_t empty_before, int jobs) { hi_z_leaves(take_block(empty_before), jobs); }
+
+  /// The same in two steps, for who decides what hi_z leaves when it knows the cycle in which hi_z takes the
+  /// block. The first gives that, where the machine has hi_z.
+  HWY_INLINE T take_block(std::uint32_t empty_before) {
     block_begun_ = steps(empty_before);
     block_next_ = block_begun_ + 1;
     block_visible_ = block_begun_ + (kBlockLatency + stall(StallPoint::kBlockWalker, blocks_));
@@ -112,10 +116,21 @@ class RecurrenceCore {
       probe_->busy(Stage::kBlockWalker, block_begun_, block_next_);
       probe_->note(&PacketTimes::block, block_begun_);
     }
-    if (memory_->hi_z_lag) {
-      hi_z(jobs);
-    }
+    return memory_->hi_z_lag ? hi_z() : T{};
   }
+
+  HWY_INLINE void hi_z_leaves(const T& h, int jobs) {
+    if (!memory_->hi_z_lag) {
+      return;
+    }
+    hi_z_out_ = h + (jobs == 0 ? kHiZLatency - 1 : 1);
+    std::shift_left(left_before_.begin(), left_before_.end(), 1);
+    left_before_.back() = {.jobs = jobs_ + static_cast<std::uint64_t>(jobs),
+                           .blocks = passed_ + (jobs != 0 ? 1 : 0)};
+  }
+
+  /// hi_z has seen the first `jobs`, whatever its lag.
+  HWY_INLINE void hi_z_has_seen(std::uint64_t jobs) { seen_ = std::max(seen_, jobs); }
 
   HWY_INLINE void block_done() {
     if (memory_->hi_z_lag) {
@@ -248,8 +263,8 @@ class RecurrenceCore {
     fifo<Fifo::kBlockWalker>().give(blocks_++, next);
   }
 
-  /// hi_z decides the block, when all that it must see has been applied, one job a cycle.
-  HWY_INLINE void hi_z(int jobs) {
+  /// hi_z takes the block, when all that it must see has been applied, one job a cycle; gives the cycle.
+  HWY_INLINE T hi_z() {
     const T& visible = block_visible_;
     const T updated = see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
     const T h = later(later(later(visible, hi_z_next_), updated),
@@ -259,12 +274,9 @@ class RecurrenceCore {
       probe_->note(&PacketTimes::hi_z, h);
     }
     hi_z_next_ = h + 1;
-    hi_z_out_ = h + (jobs == 0 ? kHiZLatency - 1 : 1);
     block_left(hi_z_next_);
     block_visible_ = h + (kHiZLatency + stall(StallPoint::kHiZ, passed_));
-    std::shift_left(left_before_.begin(), left_before_.end(), 1);
-    left_before_.back() = {.jobs = jobs_ + static_cast<std::uint64_t>(jobs),
-                           .blocks = passed_ + (jobs != 0 ? 1 : 0)};
+    return h;
   }
 
   /// Applies jobs up to number `end`, from cycle `from` on; gives the cycle of the last.
