@@ -389,7 +389,12 @@ def small_triangles(tools):
         "baseline, sample_reject": rejects,
         "ideal memory": ideal,
         "ideal memory, sample_reject": [*ideal, *rejects],
-        "ideal memory, sample_reject, coded lines": [*ideal, *rejects, "z_cache.compression=true"],
+        "ideal memory, sample_reject, coded lines, 16 write buffers": [
+            *ideal,
+            *rejects,
+            "z_cache.compression=true",
+            "z_cache.write_buffers=16",
+        ],
         "ideal memory, sample_reject, tiles of 16, blocks of 64": [*ideal, *rejects, *large],
     }
     names = ("tiny_grid", "tiny_rand")
