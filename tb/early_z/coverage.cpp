@@ -84,7 +84,7 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
   }
   if (shape.late_queue != 0) {
     counts_["b decided by late"] = 0;
-    for (const char* term : {"lookup", "test", "order", "shader", "offered", "stages"}) {
+    for (const char* term : {"lookup", "test", "shader", "offered", "stages"}) {
       counts_[fmt::format("d decided by {}", term)] = 0;
     }
     for (int beats = 1; beats <= shape.widths.TileQuads / shape.widths.TestWidth; ++beats) {
@@ -92,9 +92,13 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
     }
     for (const char* bin :
          {"late writes before a burst: line hit", "late writes before a burst: line replaced",
-          "late writes before a clear", "late writes before a flush", "late writes back to back",
+          "late writes before a clear", "late writes before a flush",
           "shader keeps all", "shader keeps none", "shader keeps some", "late burst of which nothing passed"}) {
       counts_[bin] = 0;
+    }
+    if (shape.late_queue > 1) {
+      counts_["d decided by order"] = 0;
+      counts_["late writes back to back"] = 0;
     }
     // Those that are out write to different lines.
     if (shape.late_queue < shape.lines) {
