@@ -1,7 +1,7 @@
-# tile size, sub-pixel bits, quads of a beat in and tested, parts; lines, ways, bytes of memory in a cycle
-foreach(configuration "4;8;4;4;1;16;2;16" "4;5;1;1;1;1;1;1" "8;6;8;2;4;32;1;4" "8;8;4;4;1;128;4;64" "16;8;8;4;2;64;4;128"
-                      "16;4;16;16;4;64;16;1024")
-  list(POP_FRONT configuration tile_size sub_pixel_bits quad_width test_width z_parts lines ways bytes)
+# tile size, sub-pixel bits, quads of a beat in and tested, parts; lines, ways, bytes of memory in a cycle; late writes
+foreach(configuration "4;8;4;4;1;16;2;16;2" "4;5;1;1;1;1;1;1;1" "8;6;8;2;4;32;1;4;3" "8;8;4;4;1;128;4;64;16"
+                      "16;8;8;4;2;64;4;128;64" "16;4;16;16;4;64;16;1024;5")
+  list(POP_FRONT configuration tile_size sub_pixel_bits quad_width test_width z_parts lines ways bytes late)
   halfspace_lint(t${tile_size}_s${sub_pixel_bits}_w${quad_width}_v${test_width}_p${z_parts}
                  -DHALFSPACE_TILE_SIZE=${tile_size} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits}
                  -DHALFSPACE_QUAD_WIDTH=${quad_width} -DHALFSPACE_TEST_WIDTH=${test_width}
@@ -11,5 +11,5 @@ foreach(configuration "4;8;4;4;1;16;2;16" "4;5;1;1;1;1;1;1" "8;6;8;2;4;32;1;4" "
                  -DHALFSPACE_TILE_SIZE=${tile_size} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits}
                  -DHALFSPACE_QUAD_WIDTH=${quad_width} -DHALFSPACE_TEST_WIDTH=${test_width}
                  -DHALFSPACE_Z_PARTS=${z_parts} -GLines=${lines} -GWays=${ways} -GReadBytes=${bytes}
-                 -GWriteBytes=${bytes} -GHiZ=1'b1 -GCompression=1'b1)
+                 -GWriteBytes=${bytes} -GHiZ=1'b1 -GCompression=1'b1 -GLateQueue=${late})
 endforeach()

@@ -207,8 +207,8 @@ module early_z
   // Lookup.
   logic                                 first, found, resolved, burst_done, leaving, request;
   burst_t                               burst, found_burst;
-  logic [ZParts-1:0]                    touched, missed, sure, fetched, victim, victim_half, fill_free;
-  logic [ZParts-1:0]                    stored, leaving_part, slot_half;
+  logic [ZParts-1:0]                    touched, missed, sure, fetched, victim, victim_half;
+  logic [ZParts-1:0]                    fill_free, stored, leaving_part, slot_half;
   logic [ZParts-1:0] [PartLineBits-1:0] line_index;
   logic [ZParts-1:0] [TileBits-1:0]     victim_tile, stored_tile, slot_tile;
   logic [ZParts-1:0] [Ways-1:0]         dropped;

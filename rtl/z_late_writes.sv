@@ -167,7 +167,8 @@ module z_late_writes
   logic [Queue-1:0] meets, meets_q;
   logic             late_q, full_q;
 
-  function automatic logic meet(logic [ZParts-1:0] touched, logic [ZParts-1:0] [LineIndexBits-1:0] line_index);
+  function automatic logic meet(logic [ZParts-1:0] touched,
+                                logic [ZParts-1:0] [LineIndexBits-1:0] line_index);
     meet = 1'b0;
     for (int unsigned p = 0; p < ZParts; p++) begin
       meet |= touched[p] & next_touched_i[p] & (line_index[p] == next_line_index_i[p]);
@@ -238,8 +239,13 @@ module z_late_writes
   RoomForPush: assert property (@(posedge clk_i) disable iff (!rst_ni)
       push |-> count_q != count_t'(Queue))
   else $error("more late writes are out than the queue holds");
+  // Those that the shader has not answered for.
+  int unsigned unanswered_q;
+  always_ff @(posedge clk_i) begin
+    unanswered_q <= !rst_ni ? 0 : unanswered_q + 32'(push) - 32'(answer_i);
+  end
   AnswerForOneThatIsOut: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      answer_i |-> count_q != '0)
+      answer_i |-> unanswered_q != 0)
   else $error("the shader answers for a late write that is not out");
 `endif
 

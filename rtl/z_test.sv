@@ -167,8 +167,8 @@ module z_test
   always_ff @(posedge clk_i) begin
     if (found_i) begin
       headers_q[found_burst_i] <= '{
-        touched: touched_i, missed: missed_i, sure: sure_i, line_index: line_index_i, victim: victim_i,
-        victim_tile: victim_tile_i, victim_half: victim_half_i};
+        touched: touched_i, missed: missed_i, sure: sure_i, line_index: line_index_i,
+        victim: victim_i, victim_tile: victim_tile_i, victim_half: victim_half_i};
     end
     if (resolved_i) begin
       fetched_q[found_burst_i] <= fetched_i;
@@ -235,8 +235,9 @@ module z_test
   end
 
   logic unused_next_header;
-  assign unused_next_header = ^{next_header.touched, header.touched, next_header.missed, next_header.sure, next_header.victim,
-                                next_header.victim_tile, next_header.victim_half};
+  assign unused_next_header = ^{next_header.touched, header.touched, next_header.missed,
+                                next_header.sure, next_header.victim, next_header.victim_tile,
+                                next_header.victim_half};
 
   // Late writes, which go before the beat in the test register or, where it is empty, before a clear or the flush.
   logic                                      blocked, writes_late, late_empty;

@@ -5,6 +5,7 @@ the bench, and tells what found the change, or that nothing did.
     tools/mutate.py quad_generator                        # 16 mutants, the group's default models
     tools/mutate.py early_z --count 30 --seed 7 --page docs/mutation.md
     tools/mutate.py setup --file setup_cull --model t8_s8 -- --tiles 20000
+    tools/mutate.py z_late --file z_test --changed HEAD~2  # only of the lines since then
     tools/mutate.py raster_pipeline                       # and what only the pipeline's bench sees
 
 A build folder must hold the unit's bench; its own commands are run again on a copy of the sources.
@@ -17,6 +18,7 @@ import argparse
 import pathlib
 import random
 import re
+import subprocess
 import sys
 import time
 from collections import Counter
@@ -69,6 +71,7 @@ GROUPS = {
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
     "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
     "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
+    "z_late": Group("early_z", ["late2", "t4", "parts"], ["--bursts", "32000"], ["z_late_writes"]),
     "z_codec": Group(
         "z_codec",
         ["t4_p1", "t8_p2"],
@@ -113,6 +116,16 @@ def row_of(mutant):
     return f"| {mutant.file}.sv:{change.line} | {mutant.kind} | `{code[0]}` | `{code[1]}` |"
 
 
+def changed_lines(name, commit):
+    """The lines of a module that are not those of `commit`."""
+    command = ["git", "diff", "--unified=0", commit, "--", str(RTL / f"{name}.sv")]
+    diff = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    lines = set()
+    for start, count in re.findall(r"^@@ \S+ \+(\d+)(?:,(\d+))? @@", diff, flags=re.M):
+        lines.update(range(int(start), int(start) + int(count or 1)))
+    return lines
+
+
 def mutants_for(bench, options):
     """The group's: the pipeline's are its own modules, and of the units what their benches miss."""
     own = {"raster_pipeline", "cycle_counters"}
@@ -126,7 +139,10 @@ def mutants_for(bench, options):
     for name in bench.sources:
         if name not in files if files else name in of_others:
             continue
+        lines = changed_lines(name, options.changed) if options.changed else None
         for mutant in mutants_of(name):
+            if lines is not None and change_of(mutant).line not in lines:
+                continue
             if is_activity(mutant) == (bench.unit == "raster_pipeline") or name in own:
                 yield mutant
 
@@ -174,6 +190,7 @@ def parse_command_line(own):
     parser.add_argument("--count", type=int, default=16, help="live mutants, 0 for all (default 16)")
     parser.add_argument("--seed", type=int, default=1, help="chooses the mutants (default 1)")
     parser.add_argument("--file", action="append", help="only of this module, repeatable")
+    parser.add_argument("--changed", metavar="COMMIT", help="only of lines that it does not have")
     parser.add_argument("--model", action="append", help="to run, repeatable (default: by group)")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
     parser.add_argument("--rtl", type=pathlib.Path, default=RTL, help="another copy of the sources")
@@ -249,6 +266,8 @@ class Campaign:
         options = self.options
         command = f"tools/mutate.py {options.group} --count {options.count} --seed {options.seed}"
         command += "".join(f" --file {name}" for name in options.file or [])
+        if options.changed:
+            command += f" --changed {options.changed}"
         models = ", ".join(model.name for model in self.models)
         return [
             "",

@@ -203,6 +203,8 @@ def _early_z() -> Unit:
             whole(2, BARYCENTRIC, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4),
             whole(1, PLANE, False, least, True, Lines=1, Ways=1, ReadBytes=1, WriteBytes=1),
             whole(1, PLANE, False, long=True, HiZ="1'b1"),
+            whole(1, PLANE, False, long=True, HiZ="1'b1", LateQueue=16),
+            whole(2, PLANE, False, parts, True, Lines=32, Ways=1, ReadBytes=4, WriteBytes=4, LateQueue=1),
         ),
     )
 
@@ -258,6 +260,7 @@ def _memories() -> Unit:
             Configuration("z_bank", {}, {"Lines": 128}, block_rams=4),
             Configuration("sync_ram", {}, {"Width": 464, "Depth": 256}, block_rams=13),
             Configuration("memory_fifo", {}, {"Width": 133, "Slots": 64}, block_rams=4),
+            Configuration("z_late_writes", {"TEST_WIDTH": 1}, {"Queue": 16}, measured=False, block_rams=4),
         ),
     )
 

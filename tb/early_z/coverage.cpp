@@ -82,6 +82,32 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
   for (const char* bin : {"clear", "flush clean", "flush dirty"}) {
     counts_[bin] = 0;
   }
+  if (shape.late_queue != 0) {
+    counts_["b decided by late"] = 0;
+    for (const char* term : {"lookup", "test", "shader", "offered", "stages"}) {
+      counts_[fmt::format("d decided by {}", term)] = 0;
+    }
+    for (int beats = 1; beats <= shape.widths.TileQuads / shape.widths.TestWidth; ++beats) {
+      counts_[fmt::format("late write beats {}", beats)] = 0;
+    }
+    for (const char* bin :
+         {"late writes before a burst: line hit", "late writes before a burst: line replaced",
+          "late writes before a clear", "late writes before a flush",
+          "shader keeps all", "shader keeps none", "shader keeps some", "late burst of which nothing passed"}) {
+      counts_[bin] = 0;
+    }
+    if (shape.late_queue > 1) {
+      counts_["d decided by order"] = 0;
+      counts_["late writes back to back"] = 0;
+    }
+    // Those that are out write to different lines.
+    if (shape.late_queue < shape.lines) {
+      counts_["late writes before a burst: queue full"] = 0;
+    }
+    if (shape.widths.ZParts > 1) {
+      counts_["shader keeps nothing of a part"] = 0;
+    }
+  }
   if (flush_can_wait(shape)) {
     counts_["flush waits for the write buffer"] = 0;
   }
@@ -99,6 +125,9 @@ void ZCoverage::command(const Command& command) {
       break;
   }
   hit(fmt::format("beats {}", command.beats.size()));
+  if (command.state.late) {
+    late(command.late);
+  }
   if (!command.state.test) {
     hit(fmt::format("test off {}", kFormatNames[static_cast<std::size_t>(command.state.format)]));
     return;
@@ -131,6 +160,17 @@ void ZCoverage::command(const Command& command) {
                  miss.victim == kNoZLine ? "none"
                  : miss.write_back       ? "dirty"
                                          : "clean"));
+  }
+}
+
+void ZCoverage::late(const LateWrite& late) {
+  if (!late.out) {
+    hit("late burst of which nothing passed");
+    return;
+  }
+  hit(late.kept == 0 ? "shader keeps none" : late.kept == late.passed ? "shader keeps all" : "shader keeps some");
+  if (late.kept != 0 && late.kept_parts != late.passed_parts) {
+    hit("shader keeps nothing of a part");
   }
 }
 

@@ -24,6 +24,8 @@ class ZCoverage {
   void report() const;
 
  private:
+  void late(const LateWrite& late);
+
   std::map<std::string, std::uint64_t> counts_;
 };
 

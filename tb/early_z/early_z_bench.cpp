@@ -43,20 +43,24 @@ std::vector<Case> cases(const CommandLine& command_line) {
     StallProfile stall;
     std::uint64_t latency;
     bool local;
+    std::uint64_t late_latency;
+    bool late_varies;
   };
-  static constexpr std::array<Profile, 8> kProfiles = {{{kNone, kNone, 20, false},
-                                                        {kNone, kNone, 1, true},
-                                                        {kLight, kLight, 100, true},
-                                                        {kNone, kHeavy, 20, false},
-                                                        {kHeavy, kNone, 3, true},
-                                                        {kBursty, kBursty, 50, false},
-                                                        {kNone, kBursty, 2, true},
-                                                        {kNone, kNone, 200, false}}};
+  static constexpr std::array<Profile, 8> kProfiles = {{{kNone, kNone, 20, false, 20, false},
+                                                        {kNone, kNone, 1, true, 1, false},
+                                                        {kLight, kLight, 100, true, 2, false},
+                                                        {kNone, kHeavy, 20, false, 200, true},
+                                                        {kHeavy, kNone, 3, true, 20, true},
+                                                        {kBursty, kBursty, 50, false, 1, false},
+                                                        {kNone, kBursty, 2, true, 40, true},
+                                                        {kNone, kNone, 200, false, 200, false}}};
   std::vector<Case> all;
   for (std::size_t i = 0; i < kProfiles.size(); ++i) {
     const Profile& profile = kProfiles[i];
     ZRunOptions options{.seed = command_line.seed + i,
                         .latency = profile.latency,
+                        .late_latency = profile.late_latency,
+                        .late_varies = profile.late_varies,
                         .idle = profile.idle,
                         .stall = profile.stall,
                         .fault = z_fault_by_name(command_line.fault).value(),

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/handshake_monitor.hpp"
+#include "common/random.hpp"
 #include "common/scoreboard.hpp"
 #include "early_z/z_timing.hpp"
 #include "halfspace/timing/contract.hpp"
@@ -24,11 +25,18 @@ constexpr std::uint64_t kResetCycles = 2;
 constexpr std::uint64_t kIdleSeed = 0x1d1e;
 constexpr std::uint64_t kStallSeed = 0x57a11;
 constexpr std::uint64_t kMemorySeed = 0x3e3;
+constexpr std::uint64_t kLateSeed = 0x1a7e;
 
 /// Data of a request on its way.
 struct Fill {
   std::uint64_t first = 0;  ///< cycle of the first beat
   std::vector<std::vector<std::uint32_t>> beats;
+};
+
+/// What the shader says of a late burst, in a cycle to come.
+struct Answer {
+  std::uint64_t cycle = 0;
+  const LateWrite* late = nullptr;
 };
 
 class Run {
@@ -46,10 +54,12 @@ class Run {
         updates_(update_fields_),
         idle_(options.idle, 0, options.seed ^ kIdleSeed),
         stall_(options.stall, 0, options.seed ^ kStallSeed),
-        slow_(options.memory, 0, options.seed ^ kMemorySeed) {
+        slow_(options.memory, 0, options.seed ^ kMemorySeed),
+        shader_(options.seed ^ kLateSeed) {
     in_.equation.resize(words_for(packed_bits<DepthEquationPacket>(shape.widths)));
     in_.state.resize(words_for(packed_bits<DrawStatePacket>(shape.widths)));
     in_.beat.resize(words_for(packed_bits<QuadBeat>(shape.widths)));
+    in_.late_keep.resize(words_for(shape.widths.MaskBits));
     in_.fill.resize(words_for(8 * std::min(shape.read_bytes, shape.line_bytes())));
     for (const Command& command : workload.commands) {
       for (const ZMiss& miss : command.misses.parts()) {
@@ -90,6 +100,7 @@ class Run {
   void round(std::uint64_t cut) {
     in_.reset = true;
     in_.beat_valid = in_.slot_write = in_.fill_valid = in_.clear_valid = in_.flush = in_.beat_ready = false;
+    in_.late_valid = false;
     for (std::uint64_t i = 0; i < kResetCycles; ++i) {
       dut_.settle(in_, out_);
       dut_.clock_edge();
@@ -104,10 +115,11 @@ class Run {
     read_law_.clear();
     write_law_.clear();
     fills_.clear();
+    answers_.clear();
     outstanding_.clear();
     command_ = beat_ = written_slots_ = 0;
     offered_ = waits_done_ = false;
-    fill_free_ = quiet_ = idle_cycles_ = 0;
+    fill_free_ = quiet_ = idle_cycles_ = waited_ = 0;
     write_bytes_.clear();
     lines_done_ = 0;
     cycle_ = 0;
@@ -130,6 +142,7 @@ class Run {
   void step() {
     source();
     memory_data();
+    shader();
     in_.beat_ready = !stall_.stalled();
     in_.read_ready = in_.write_ready = !slow_.stalled();
     dut_.settle(in_, out_);
@@ -165,7 +178,7 @@ class Run {
       const Command& command = workload_.commands[command_];
       CommandLog& log = log_.commands[command_];
       const bool may = command.kind != CommandKind::kBurst || command.triangle < known;
-      if (!offered_ && may && !draw_idle) {
+      if (!offered_ && may && !draw_idle && waited_++ >= command.wait) {
         offered_ = true;
         log.arrive = cycle_;
       }
@@ -246,6 +259,7 @@ class Run {
     coverage_.command(command);
     ++command_;
     beat_ = 0;
+    waited_ = 0;
     offered_ = waits_done_ = false;
     idle_cycles_ = 0;
   }
@@ -268,10 +282,60 @@ class Run {
     }
     if (in_.beat_ready) {
       log.taken.push_back(cycle_);
+      const Command& command = workload_.commands[outstanding_.front()];
       outstanding_.pop_front();
+      if (log.taken.size() == command.tested.size()) {
+        to_shader(command.late);
+      }
       fail(scoreboard_.receive(cycle_, out_.beat));
       ++beats_;
       idle_cycles_ = 0;
+    }
+  }
+
+  /// The last beat of a late burst is in the shader, which will answer.
+  void to_shader(const LateWrite& late) {
+    if (!late.out) {
+      return;
+    }
+    const std::uint64_t latency =
+        options_.late_varies ? 1 + shader_.below(options_.late_latency) : options_.late_latency;
+    answers_.push_back(
+        {std::max(cycle_ + latency, answers_.empty() ? 0 : answers_.back().cycle + 1), &late});
+  }
+
+  /// Its answers. Without one the wires hold anything.
+  void shader() {
+    in_.late_valid = false;
+    for (std::uint32_t& word : in_.late_keep) {
+      word = static_cast<std::uint32_t>(shader_.bits());
+    }
+    mask_keep();
+    const bool from_here = log_.answers.size() >= options_.fault_packet;
+    if (options_.fault == ZFault::kExtraAnswer && from_here && answers_.empty() && outstanding_.empty()) {
+      in_.late_valid = true;
+      return;
+    }
+    if (answers_.empty() || cycle_ < answers_.front().cycle ||
+        (from_here && options_.fault == ZFault::kLoseAnswer)) {
+      return;
+    }
+    const LateWrite& late = *answers_.front().late;
+    in_.late_valid = true;
+    in_.late_keep = late.keep;
+    if (options_.fault == ZFault::kFlipKeep && log_.answers.size() == options_.fault_packet) {
+      in_.late_keep[late.passed_word] ^= late.passed_bit;
+    }
+    log_.answers.push_back(cycle_ - (from_here && options_.fault == ZFault::kLateAnswer ? 1 : 0));
+    answers_.pop_front();
+    idle_cycles_ = 0;
+  }
+
+  /// Verilator wants the bits above a port's width to be 0.
+  void mask_keep() {
+    const int bits = shape_.widths.MaskBits % 32;
+    if (bits != 0) {
+      in_.late_keep.back() &= (1u << bits) - 1;
     }
   }
 
@@ -449,6 +513,10 @@ class Run {
       case ZFault::kFlipWrite:
       case ZFault::kFlipUpdate:
       case ZFault::kLateUpdate:
+      case ZFault::kFlipKeep:
+      case ZFault::kLateAnswer:
+      case ZFault::kLoseAnswer:
+      case ZFault::kExtraAnswer:
       case ZFault::kGap:
         break;
     }
@@ -483,6 +551,8 @@ class Run {
   std::deque<Fill> fills_;
   std::uint64_t fill_free_ = 0;  ///< first cycle in which the read channel is free
   std::uint64_t fill_beats_ = 0;
+  Random shader_;
+  std::deque<Answer> answers_;
   std::vector<std::uint32_t> lines_read_;     ///< in the order in which the model's cache asks for them
   std::vector<std::uint32_t> lines_written_;  ///< likewise
   std::size_t lines_done_ = 0;                ///< of them
@@ -491,6 +561,7 @@ class Run {
   std::size_t command_ = 0;
   std::size_t beat_ = 0;
   bool offered_ = false;
+  std::uint64_t waited_ = 0;  ///< cycles, before it was offered
   bool waits_done_ = false;  ///< for a clear or a flush
   std::size_t written_slots_ = 0;
   std::size_t ahead_ = 0;
@@ -510,7 +581,7 @@ class Run {
 }  // namespace
 
 std::optional<ZFault> z_fault_by_name(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, ZFault>, 13> kNames = {
+  static constexpr std::array<std::pair<const char*, ZFault>, 17> kNames = {
       {{"none", ZFault::kNone},
        {"flip-depth", ZFault::kFlipDepth},
        {"flip-passed", ZFault::kFlipPassed},
@@ -523,6 +594,10 @@ std::optional<ZFault> z_fault_by_name(const std::string& name) {
        {"hold-request", ZFault::kHoldRequest},
        {"flip-update", ZFault::kFlipUpdate},
        {"late-update", ZFault::kLateUpdate},
+       {"flip-keep", ZFault::kFlipKeep},
+       {"late-answer", ZFault::kLateAnswer},
+       {"lose-answer", ZFault::kLoseAnswer},
+       {"extra-answer", ZFault::kExtraAnswer},
        {"gap", ZFault::kGap}}};
   const auto* const known = std::ranges::find(kNames, name, &std::pair<const char*, ZFault>::first);
   return known == kNames.end() ? std::nullopt : std::optional(known->second);

@@ -27,6 +27,10 @@ enum class ZFault : std::uint8_t {
   kHoldRequest,    ///< memory takes a request one cycle late
   kFlipUpdate,     ///< a bit of an update for hi_z
   kLateUpdate,     ///< an update one cycle late
+  kFlipKeep,       ///< a bit of what the shader keeps
+  kLateAnswer,     ///< the shader answers one cycle late, from an answer on
+  kLoseAnswer,     ///< no answers any more, from one on
+  kExtraAnswer,    ///< an answer for nothing: for the assertions of the RTL
   kGap,            ///< the source leaves a gap in a burst: for the assertions of the RTL
 };
 
@@ -35,6 +39,8 @@ enum class ZFault : std::uint8_t {
 struct ZRunOptions {
   std::uint64_t seed = 1;
   std::uint64_t latency = 20;  ///< of memory
+  std::uint64_t late_latency = 20;  ///< of the shader: from the last beat taken to its answer
+  bool late_varies = false;         ///< from 1 to that, but in order
   StallProfile idle = StallProfile::kNone;
   StallProfile stall = StallProfile::kNone;
   StallProfile memory =

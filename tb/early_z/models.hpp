@@ -30,6 +30,7 @@ struct EarlyZShape {
   int interpolator_number = 1;
   bool hi_z = false;
   bool compression = false;
+  int late_queue = 0;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
@@ -58,6 +59,8 @@ struct EarlyZInputs {
   bool beat_valid = false;
   std::vector<std::uint32_t> beat;
   bool beat_ready = false;
+  bool late_valid = false;
+  std::vector<std::uint32_t> late_keep;
   bool read_ready = true;
   bool fill_valid = false;
   std::vector<std::uint32_t> fill;

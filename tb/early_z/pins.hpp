@@ -26,6 +26,8 @@ class VerilatedEarlyZ final : public EarlyZDut {
     m.beat_valid_i = in.beat_valid;
     set_port(m.beat_i, in.beat);
     m.beat_ready_i = in.beat_ready;
+    m.late_valid_i = in.late_valid;
+    set_port(m.late_keep_i, in.late_keep);
     m.read_ready_i = in.read_ready;
     m.fill_valid_i = in.fill_valid;
     set_port(m.fill_data_i, in.fill);
@@ -68,7 +70,7 @@ template <class Model>
 EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
                       int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
-                      int interpolator, int hi_z, int compression) {
+                      int interpolator, int hi_z, int compression, int late_queue) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
             .TileSize = tile_size,
@@ -87,7 +89,8 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
            memory_tiles,
            interpolator,
            hi_z != 0,
-           compression != 0},
+           compression != 0,
+           late_queue},
           [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
             return std::make_unique<VerilatedEarlyZ<Model>>(seed);
           }};

@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kSurfaces = 3;
 constexpr std::uint64_t kMostTriangles = 5;  // of a draw
 constexpr std::size_t kMostBursts = 16;      // of a triangle
+constexpr std::uint64_t kLongWait = 200;     // for a clear or a flush
+constexpr std::uint64_t kWholeKeep = 16;     // the shader keeps all that passed
 
 struct Surface {
   DepthFormat format = DepthFormat::kNone;
@@ -32,7 +34,10 @@ class Maker {
       : shape_(shape),
         local_(local),
         random_(seed),
-        cache_({.lines = shape.lines, .ways = shape.ways, .parts = parts()},
+        cache_({.lines = shape.lines,
+                .ways = shape.ways,
+                .parts = parts(),
+                .late_writes = shape.late_queue},
                static_cast<std::uint32_t>(shape.memory_tiles * parts())) {
     make_surfaces();
   }
@@ -149,12 +154,18 @@ class Maker {
     written_[line] = true;
   }
 
+  /// Late writes that are out wait for the clear or the flush, where it does not wait for them.
+  std::uint64_t random_wait() {
+    return shape_.late_queue == 0 || random_.below(2) == 0 ? 0 : random_.below(kLongWait);
+  }
+
   void clear(Surface& surface) {
     surface.clear_code = stored_code(surface.format, random_vertex_depth(surface.format));
     std::ranges::fill(surface.codes, surface.clear_code);
     cache_.clear(surface.place);
     Command& command = workload_.commands.emplace_back();
     command.kind = CommandKind::kClear;
+    command.wait = random_wait();
     command.first = surface.place.first_tile;
     command.last = surface.place.first_tile + surface.place.tiles - 1;
     for (std::uint32_t line = command.first * static_cast<std::uint32_t>(parts());
@@ -166,6 +177,7 @@ class Maker {
   void flush() {
     Command& command = workload_.commands.emplace_back();
     command.kind = CommandKind::kFlush;
+    command.wait = random_wait();
     cache_.flush([&](std::uint32_t slot, std::uint32_t line, std::uint32_t bytes) {
       command.flushed.push_back({slot, line, bytes});
       store(line);
@@ -175,12 +187,16 @@ class Maker {
   void draw(std::size_t& left) {
     Surface& surface = surfaces_[random_.below(kSurfaces)];
     const bool none = random_.below(16) == 0;
-    const EarlyZState state{.test = !none && random_.below(8) != 0,
-                            .write = random_.below(4) != 0,
-                            .func = static_cast<DepthFunc>(random_.below(8)),
-                            .format = none ? DepthFormat::kNone : surface.format,
-                            .interpolator = shape_.interpolator(),
-                            .sub_pixel_bits = shape_.widths.SubPixelBits};
+    EarlyZState state{.test = !none && random_.below(8) != 0,
+                      .write = random_.below(4) != 0,
+                      .func = static_cast<DepthFunc>(random_.below(8)),
+                      .format = none ? DepthFormat::kNone : surface.format,
+                      .interpolator = shape_.interpolator(),
+                      .sub_pixel_bits = shape_.widths.SubPixelBits};
+    if (shape_.late_queue != 0) {
+      state.late = touches_depth(state) && state.write && random_.below(4) != 0;
+      keep_share_ = random_.below(kWholeKeep + 1);
+    }
     const auto pixel = [&] {
       return static_cast<std::uint16_t>(random_.bits() >> (64 - shape_.widths.PixelBits));
     };
@@ -196,6 +212,7 @@ class Maker {
                            .format = static_cast<std::uint8_t>(state.format),
                            .test = state.test,
                            .write = state.write,
+                           .late = state.late,
                            .func = static_cast<std::uint8_t>(state.func),
                            .clear_code = surface.clear_code,
                            .first_tile = surface.place.first_tile,
@@ -242,6 +259,36 @@ class Maker {
            z_test<TileSize>(triangle, burst, state, before.data(), codes) == burst.coverage.mask;
   }
 
+  /// What the shader answers for a burst, and the samples of those that passed which it keeps.
+  template <int TileSize>
+  TileMask make_late(const TileMask& passed, LateWrite& late) {
+    // Most bursts as their draw, some all or none.
+    const std::uint64_t which = random_.below(8);
+    const std::uint64_t share = which == 0 ? 0 : which == 1 ? kWholeKeep : keep_share_;
+    late.out = any(passed);
+    late.keep.resize(words_for(tile_samples()));
+    TileMask kept;
+    for (int bit = 0; bit < TileSize * TileSize && late.out; ++bit) {
+      const int x = bit % TileSize;
+      const int y = bit / TileSize;
+      const auto at = static_cast<std::size_t>(4 * (y / 2 * (TileSize / 2) + x / 2) + y % 2 * 2 + x % 2);
+      const auto word = static_cast<std::size_t>(bit / 64);
+      const bool pass = (passed.word[word] >> (bit % 64) & 1) != 0;
+      const bool keep = random_.below(kWholeKeep) < (pass ? share : kWholeKeep / 2);
+      late.keep[at / 32] |= std::uint32_t{keep} << (at % 32);
+      if (pass) {
+        late.passed_word = at / 32;
+        late.passed_bit = 1u << (at % 32);
+        kept.word[word] |= std::uint64_t{keep} << (bit % 64);
+      }
+    }
+    late.passed = popcount(passed);
+    late.kept = popcount(kept);
+    late.passed_parts = parts_of_mask<TileSize>(passed, parts());
+    late.kept_parts = parts_of_mask<TileSize>(kept, parts());
+    return kept;
+  }
+
   /// By how much the parts that a burst wrote to are coded.
   [[nodiscard]] ZShifts shifts(const std::uint32_t* codes, std::uint8_t written,
                                const Surface& surface) const {
@@ -267,7 +314,7 @@ class Maker {
         burst.coverage.tile_y * surface.place.tiles_x + static_cast<std::uint32_t>(burst.coverage.tile_x);
     std::uint32_t* const stored = &surface.codes[tile * static_cast<std::uint32_t>(TileSize * TileSize)];
     burst.coverage.sure =
-        overwrites<TileSize>(triangle, burst, state, stored) && random_.below(4) != 0 ? 1 : 0;
+        !state.late && overwrites<TileSize>(triangle, burst, state, stored) && random_.below(4) != 0 ? 1 : 0;
     TileCodes<TileSize> codes{};
     const TileMask passed = z_test<TileSize>(triangle, burst, state, stored, codes);
     if (state.format == DepthFormat::kNone) {
@@ -275,15 +322,32 @@ class Maker {
     } else if (!state.test) {
       interpolate_tile<TileSize>(triangle, burst, state, codes);
     }
+    HiZUpdate update;
+    TileMask kept = passed;
+    if (state.late) {
+      update = hi_z_update<TileSize>(stored, parts_of_mask<TileSize>(burst.coverage.mask, parts()), parts());
+      allow_for_late_write(update, triangle.depth, state);
+      kept = make_late<TileSize>(passed, command.late);
+      write_codes<TileSize>(codes.data(), kept, stored);
+    }
     const std::uint8_t covered = parts_of_mask<TileSize>(burst.coverage.mask, parts());
     if (touches_depth(state)) {
       command.touched = covered;
-      const std::uint8_t written = state.write ? parts_of_mask<TileSize>(passed, parts()) : std::uint8_t{0};
+      const std::uint8_t written = state.write ? parts_of_mask<TileSize>(kept, parts()) : std::uint8_t{0};
       command.misses = cache_.access(surface.place, burst.coverage.tile_x, burst.coverage.tile_y,
                                      {.touched = covered,
                                       .written = written,
                                       .sure = sure_parts<TileSize>(burst.coverage, parts()),
-                                      .shifts = shifts(stored, written, surface)});
+                                      .shifts = shifts(stored, written, surface),
+                                      .late = state.late,
+                                      .late_write = command.late.out});
+      for (int part = 0; part < parts(); ++part) {
+        if ((covered >> part & 1) != 0) {
+          command.lines.push_back(surface.place.line(static_cast<std::uint32_t>(burst.coverage.tile_x),
+                                                     static_cast<std::uint32_t>(burst.coverage.tile_y),
+                                                     parts(), part));
+        }
+      }
       for (const ZMiss& miss : command.misses.parts()) {
         if (miss.fetch) {
           command.fetched.push_back(std::countr_zero(surface.place.line_bytes / miss.bytes));
@@ -295,7 +359,9 @@ class Maker {
         }
       }
     }
-    const HiZUpdate update = hi_z_update<TileSize>(stored, command.touched, parts());
+    if (!state.late) {
+      update = hi_z_update<TileSize>(stored, command.touched, parts());
+    }
     HiZUpdatePacket told;
     for (std::size_t part = 0; part < update.bounds.size(); ++part) {
       if ((update.touched >> part & 1) != 0) {
@@ -324,6 +390,7 @@ class Maker {
 
   EarlyZShape shape_;
   bool local_;
+  std::uint64_t keep_share_ = 0;  ///< of the draw, out of kWholeKeep: of the samples that pass
   Random random_;
   ZCache cache_;
   std::array<Surface, kSurfaces> surfaces_;

@@ -12,6 +12,18 @@ namespace halfspace::tb {
 
 enum class CommandKind : std::uint8_t { kBurst, kClear, kFlush };
 
+/// What a burst of a late draw leaves where a sample passed.
+struct LateWrite {
+  bool out = false;
+  std::vector<std::uint32_t> keep;  ///< the shader's answer, by quad; of samples that had not passed, anything
+  std::size_t passed_word = 0;      ///< where one is that had passed
+  std::uint32_t passed_bit = 0;
+  int passed = 0;  ///< samples
+  int kept = 0;    ///< of them
+  std::uint8_t passed_parts = 0;
+  std::uint8_t kept_parts = 0;
+};
+
 struct FlushedLine {
   std::uint32_t slot = 0;
   std::uint32_t line = 0;
@@ -26,11 +38,15 @@ struct Command {
   EarlyZState state;
   ZMisses misses;
   std::uint8_t touched = 0;
+  std::vector<std::uint32_t> lines;  ///< that it touches
   std::vector<int> fetched;  ///< the shifts by which the lines are coded that are fetched
   std::vector<int> written;  ///< and written back
   std::vector<std::vector<std::uint32_t>> beats;   ///< as they come
   std::vector<std::vector<std::uint32_t>> tested;  ///< as they must leave
   std::vector<std::uint32_t> update;               ///< what hi_z must be told
+  LateWrite late;
+  // A clear or a flush is offered so many cycles later than it could be.
+  std::uint64_t wait = 0;
   // A clear, in tiles.
   std::uint32_t first = 0;
   std::uint32_t last = 0;

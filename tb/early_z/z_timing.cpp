@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 
 #include "halfspace/timing/contract.hpp"
 
@@ -137,9 +138,19 @@ class Contract {
       cut_ = true;
       return;
     }
-    const std::array<Term, 5> terms = {
+    std::optional<Cycle> late_next;
+    const std::size_t late_done = command.misses.late_done;
+    if (late_done > late_written_) {
+      count_late_reasons(command, late_done);
+      late_next = write_late(late_done, {"lookup", f + kLookupToTest}, {"test", test_next_});
+      if (!late_next) {
+        return;
+      }
+    }
+    const std::array<Term, 6> terms = {
         {{"lookup", f + kLookupToTest},
          {"test", test_next_},
+         {"late", late_next.value_or(0)},
          {"fill", command.misses.count == 0 ? 0 : there + 1},
          {"write buffer", dirty == 0 || w <= buffers ? 0 : written_[w - 1 - buffers] + 1},
          {"credit", k < fifo ? 0 : sink_last_[k - fifo] + 1}}};
@@ -150,6 +161,9 @@ class Contract {
     test_last_.push_back(b + beats - 1);
     if (shape_.hi_z) {
       update(k, b + beats - 1 + kTestToUpdate, latest(terms).name);
+    }
+    if (command.late.out) {
+      late_.push_back({&command, beats});
     }
     for (const ZMiss& miss : command.misses.parts()) {
       if (miss.fetch) {
@@ -181,6 +195,46 @@ class Contract {
       sink_next_ = seen.taken[i] + 1;
     }
     sink_last_.push_back(sink_next_ - 1);
+  }
+
+  /// Which of the late writes that are out, up to number `end`, must be done before this burst, and why.
+  void count_late_reasons(const Command& command, std::size_t end) {
+    const Command& newest = *late_[end - 1].command;
+    bool hit = false;
+    bool replaced = false;
+    for (const std::uint32_t line : newest.lines) {
+      hit = hit || std::ranges::find(command.lines, line) != command.lines.end();
+      replaced = replaced || std::ranges::find(command.misses.parts(), line, &ZMiss::victim) !=
+                                 command.misses.parts().end();
+    }
+    coverage_.hit(hit        ? "late writes before a burst: line hit"
+                  : replaced ? "late writes before a burst: line replaced"
+                             : "late writes before a burst: queue full");
+  }
+
+  /// Late writes up to number `end`, not before `first` and `second`; gives the cycle after them, or nothing where the
+  /// run ended before.
+  std::optional<Cycle> write_late(std::size_t end, Term first, Term second) {
+    Cycle order = 0;
+    std::size_t together = 0;
+    for (; late_written_ < end; ++late_written_) {
+      if (late_written_ >= log_.answers.size()) {
+        cut_ = true;
+        return std::nullopt;
+      }
+      const std::array<Term, 4> terms = {
+          {first, second, {"order", order}, {"shader", log_.answers[late_written_] + 1}}};
+      const Term& d = latest(terms);
+      coverage_.hit(fmt::format("d decided by {}", d.name));
+      const LateBurst& late = late_[late_written_];
+      coverage_.hit(fmt::format("late write beats {}", late.beats));
+      together = d.cycle == order ? together + 1 : 1;
+      if (together == 2) {
+        coverage_.hit("late writes back to back");
+      }
+      order = d.cycle + late.beats;
+    }
+    return order;
   }
 
   void update(std::size_t k, Cycle wanted, const char* reason) {
@@ -216,13 +270,29 @@ class Contract {
   }
 
   [[nodiscard]] Cycle idle() const {
-    return std::max(
-        {lookup_next_, test_next_, sink_next_, written_.empty() ? 0 : written_.back() + 1, control_next_});
+    return std::max({lookup_next_, test_next_, sink_next_, written_.empty() ? 0 : written_.back() + 1,
+                     control_next_, late_next_});
+  }
+
+  /// The late writes that are out, before a clear or a flush; false where the run ended before.
+  bool drain_late(const CommandLog& seen, const char* what) {
+    if (late_written_ == late_.size()) {
+      return true;
+    }
+    coverage_.hit(fmt::format("late writes before a {}", what));
+    const std::optional<Cycle> next =
+        write_late(late_.size(), {"offered", seen.arrive},
+                   {"stages", std::max({lookup_next_, test_next_, control_next_})});
+    late_next_ = next.value_or(0);
+    return next.has_value();
   }
 
   void clear(const Command& command, const CommandLog& seen) {
     if (!seen.begun) {
       cut_ = true;
+      return;
+    }
+    if (!drain_late(seen, "clear")) {
       return;
     }
     const Cycle begin = std::max(idle(), seen.arrive);
@@ -239,6 +309,9 @@ class Contract {
   void flush(const Command& command, const CommandLog& seen) {
     if (!seen.begun) {
       cut_ = true;
+      return;
+    }
+    if (!drain_late(seen, "flush")) {
       return;
     }
     Cycle scan_next = std::max(idle(), seen.arrive);
@@ -291,6 +364,13 @@ class Contract {
   std::vector<Cycle> written_;  ///< by write-back
   std::map<std::uint32_t, Cycle> out_;
   std::size_t writes_seen_ = 0;
+  struct LateBurst {
+    const Command* command;
+    Cycle beats;
+  };
+  std::vector<LateBurst> late_;   ///< of all so far, in order
+  std::size_t late_written_ = 0;  ///< of them
+  Cycle late_next_ = 0;           ///< behind those before a clear or a flush
 };
 
 }  // namespace

@@ -45,6 +45,7 @@ struct RunLog {
   std::vector<RequestLog> requests;
   std::vector<WriteLog> writes;
   std::vector<std::uint64_t> updates;  ///< cycles of those for hi_z
+  std::vector<std::uint64_t> answers;  ///< and of the shader's
   std::uint64_t cycles = 0;
 };
 

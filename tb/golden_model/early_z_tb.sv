@@ -71,6 +71,8 @@ module early_z_tb;
     .beat_valid_o    (dut_valid),
     .beat_ready_i    (dut_ready),
     .beat_o          (dut_beat),
+    .late_valid_i    (1'b0),
+    .late_keep_i     ('0),
     .read_valid_o    (read_valid),
     .read_ready_i    (1'b1),
     .read_line_o     (read_line),

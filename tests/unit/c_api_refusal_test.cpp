@@ -188,6 +188,7 @@ TEST_CASE_METHOD(Refusals, "c_api: triangles outside the contract of setup are r
                      fmt::format("state.format is {}; legal: 0 (none), 1", format_number));
   }
   refused_triangle([](auto&, auto& d) { d.format = 0; }, "state.test is 1; legal: 0");
+  refused_triangle([](auto&, auto& d) { d.late = 1; }, "state.late is 1; legal: 0");
   refused_triangle(
       [](auto&, auto& d) { d.most_code = 1u << 24; },
       "state.least_code and most_code are 0x0 and 0x1000000; legal: 0 to 0xffffff, in this order");

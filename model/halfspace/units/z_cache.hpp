@@ -105,6 +105,7 @@ class ZCache {
   /// See z_flush.
   template <class Visit>
   void flush(Visit&& visit) {
+    late_.finish_all();
     z_flush(lines_, std::forward<Visit>(visit));
   }
 
