@@ -82,7 +82,7 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
     case Fidelity::kRecurrence:
       return timed(run_recurrence(frame, config, engine));
     case Fidelity::kSystemc:
-      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd}));
+      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd, .activations = nullptr}));
     case Fidelity::kRtl:
       return verilated(frame, config, engine, options);
   }
