@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "halfspace/timing/rtl/cycle_meter.hpp"
@@ -26,9 +27,13 @@ class RestSkipper final : public PipelineDecorator {
       out.counter = counter_ + uncounted_before_;
       return;
     }
-    keeps_ = same && !kept_ && still_ >= next_look_;
-    const bool compares = same && kept_;
-    if (counts_cycles_ == (keeps_ || compares)) {
+    if (!same) {
+      look_ = Look::kNone;
+    } else if (look_ == Look::kNone && still_ >= next_look_) {
+      look_ = Look::kHold;
+      next_look_ = 2 * still_;
+    }
+    if (counts_cycles_ != (look_ == Look::kNone)) {
       counts_cycles_ = !counts_cycles_;
       pipeline().count_cycles(counts_cycles_);
     }
@@ -41,9 +46,9 @@ class RestSkipper final : public PipelineDecorator {
       in_ = in;
     }
     still_ = moves ? 0 : same && out.activity == out_.activity ? still_ + 1 : 1;
-    next_look_ = still_ <= 1 ? kFirstLook : keeps_ ? 2 * still_ : next_look_;
+    next_look_ = still_ <= 1 ? kFirstLook : next_look_;
     out_ = out;
-    resting_ = compares && pipeline().holds_kept_state();
+    resting_ = look_ == Look::kCompare && pipeline().holds_kept_state();
   }
 
   void clock_edge() override {
@@ -56,22 +61,30 @@ class RestSkipper final : public PipelineDecorator {
       return;
     }
     ++counts_.evaluated;
-    kept_ = keeps_;
-    if (keeps_) {
+    if (look_ == Look::kKeep) {
       pipeline().keep_state();
       ++counts_.looked;
     }
+    look_ = next(look_);
     pipeline().clock_edge();
   }
 
  private:
+  /// A look takes three cycles: in the first the counters come to a stand, the state of the second is kept,
+  /// and that of the third compared.
+  enum class Look : std::uint8_t { kNone, kHold, kKeep, kCompare };
+
+  static Look next(Look look) {
+    return look == Look::kHold ? Look::kKeep : look == Look::kKeep ? Look::kCompare : Look::kNone;
+  }
+
   /// Counts the cycle in place of the counters of the pipeline.
   void count() {
     for (std::size_t stage = 0; stage < kStages; ++stage) {
       ++uncounted_[stage << kActivityBits | (out_.activity >> (stage * kActivityBits) & kActivityMask)];
     }
-    uncounted_[kStages << kActivityBits | 1] +=
-        out_.write_valid ? 1 : 0;  // no data came: inputs are the same
+    // No data has come from memory: inputs are the same.
+    uncounted_[kStages << kActivityBits | 1] += out_.write_valid ? 1 : 0;
   }
 
   RestCounts own_counts_;
@@ -81,12 +94,11 @@ class RestSkipper final : public PipelineDecorator {
   PipelineOutputs out_;
   std::uint64_t counter_ = 0;  ///< as the pipeline has it
   std::uint32_t select_ = 0;
-  bool keeps_ = false;    ///< its state is kept
-  bool resting_ = false;  ///< and those after it are like it
+  Look look_ = Look::kNone;
+  bool resting_ = false;  ///< those after it are like it
 
   std::uint64_t still_ = 0;  ///< cycles in which nothing moved on a link or a port, and all else stayed
   std::uint64_t next_look_ = kFirstLook;  ///< so many of them
-  bool kept_ = false;                     ///< the state of the cycle before
   bool counts_cycles_ = true;
   std::array<std::uint64_t, (kStages + 1) << kActivityBits> uncounted_{};  ///< by counter_select
   std::uint64_t uncounted_before_ = 0;  ///< of the counter selected in the cycle before, up to that
