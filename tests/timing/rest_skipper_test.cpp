@@ -138,14 +138,14 @@ TEST_CASE("a rest begins when a look at two cycles finds the same, and ends with
       skipping->clock_edge();
     }
   };
-  cycles(6);  // the state of the last is kept
-  CHECK(edges == 6);
+  cycles(10);  // the state of the last is kept
+  CHECK(edges == 10);
   CHECK(counts.looked == 1);
   cycles(1000);
-  CHECK(edges == 6);
+  CHECK(edges == 10);
   CHECK(counts.skipped == 1000);
   in.beat_ready = true;
   cycles(1);
-  CHECK(edges == 7);
+  CHECK(edges == 11);
   CHECK(out.activity == 2);
 }

@@ -1,6 +1,7 @@
 /// halfspace bench idle: what the engines with modules do where nothing happens, and what it costs.
 #include <fmt/format.h>
 
+#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,6 +25,14 @@ struct IdleOptions {
   int repeat = 3;
 };
 
+/// Milliseconds of the processor that action() takes.
+template <class Action>
+double processor_milliseconds(const Action& action) {
+  const std::clock_t start = std::clock();
+  action();
+  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
 double percent(std::uint64_t part, std::uint64_t all) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(all);
 }
@@ -37,16 +46,18 @@ void print_idle(const Frame& frame, const std::string& machine, const Config& co
   rtl::RestCounts counts;
   FrameCycles cycles;
   for (int i = 0; i < options.repeat; ++i) {
-    systemc.push_back(milliseconds(
+    systemc.push_back(processor_milliseconds(
         [&] { cycles = run_systemc(frame, config, {}, {.vcd = {}, .activations = &activations}).cycles; }));
     const std::unique_ptr<rtl::VerilatedPipeline> evaluated = options.rtl.pipeline(config);
     FrameCycles all;
-    every.push_back(milliseconds([&] { all = run_rtl(frame, config, {}, *evaluated).timed.cycles; }));
+    every.push_back(
+        processor_milliseconds([&] { all = run_rtl(frame, config, {}, *evaluated).timed.cycles; }));
     counts = {};
     const std::unique_ptr<rtl::VerilatedPipeline> skipped =
         rtl::skipping_rests(options.rtl.pipeline(config), &counts);
     FrameCycles same;
-    skipping.push_back(milliseconds([&] { same = run_rtl(frame, config, {}, *skipped).timed.cycles; }));
+    skipping.push_back(
+        processor_milliseconds([&] { same = run_rtl(frame, config, {}, *skipped).timed.cycles; }));
     if (all != cycles || same != cycles) {
       throw InputError(fmt::format("{}: runs disagree: systemc {}, rtl {}, skipping {} cycles", frame.name,
                                    cycles.cycles, all.cycles, same.cycles));
@@ -67,7 +78,8 @@ void bench_idle(IdleOptions options) {
   for (const std::string& setting : options.machine.settings) {
     machine += " " + setting;
   }
-  fmt::print("medians of {} runs in turns; the RTL with everything compared\n\n", options.repeat);
+  fmt::print("time of the processor, {} run(s) in turns; the RTL with everything compared\n\n",
+             options.repeat);
   fmt::print(
       "| machine | frame | cycles | activations of SystemC | a cycle | systemc, ms | cycles of the RTL "
       "skipped, % | "

@@ -247,8 +247,9 @@ void RtlOptions::add_to(CLI::App& command) {
       .add_option("--wave", wave,
                   "write an FST waveform; needs a pipeline of the folder checked or no_dfg: --rtl-folder")
       ->type_name("FILE");
-  command.add_flag("--rtl-every-cycle", every_cycle,
-                   "evaluate the RTL also in cycles in which nothing in it can change; the result is the same");
+  command.add_flag(
+      "--rtl-every-cycle", every_cycle,
+      "evaluate the RTL also in cycles in which nothing in it can change; the result is the same");
 }
 
 void RtlOptions::apply(RunOptions& run) const {

@@ -13,7 +13,7 @@ namespace {
 
 /// A look at the state costs as much as some cycles. The first comes after so many cycles in which nothing
 /// moved, each further one after twice as many.
-constexpr std::uint64_t kFirstLook = 4;
+constexpr std::uint64_t kFirstLook = 8;
 
 class RestSkipper final : public PipelineDecorator {
  public:
