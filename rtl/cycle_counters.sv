@@ -9,6 +9,8 @@ module cycle_counters
   input  logic                                          clk_i,
   input  logic                                          rst_ni,
 
+  /// This cycle counts.
+  input  logic                                          count_i,
   input  logic [StageCount-1:0] [ActivityBits-1:0]      activity_i,
   input  logic                                          read_busy_i,
   input  logic                                          write_busy_i,
@@ -33,7 +35,7 @@ module cycle_counters
         for (int unsigned activity = 0; activity < ActivityCount; activity++) begin
           stage_q[stage][activity] <= '0;
         end
-      end else begin
+      end else if (count_i) begin
         stage_q[stage][activity_i[stage]] <= stage_q[stage][activity_i[stage]] + count_t'(1);
       end
     end
@@ -44,10 +46,10 @@ module cycle_counters
       read_q  <= '0;
       write_q <= '0;
     end else begin
-      if (read_busy_i) begin
+      if (count_i && read_busy_i) begin
         read_q <= read_q + count_t'(1);
       end
-      if (write_busy_i) begin
+      if (count_i && write_busy_i) begin
         write_q <= write_q + count_t'(1);
       end
     end

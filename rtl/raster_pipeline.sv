@@ -94,8 +94,10 @@ module raster_pipeline
   input  logic                 flush_i,
   output logic                 flush_done_o,
 
-  // What the stages spend the cycle on, by stage (raster_pkg), and the counters of it (cycle_counters).
+  // What the stages spend the cycle on, by stage (raster_pkg), and the counters of it (cycle_counters), which stand
+  // still in a cycle without count_i.
   output logic [StageCount-1:0] [ActivityBits-1:0]     activity_o,
+  input  logic                                         count_i,
   input  logic [$clog2(StageCount+1)+ActivityBits-1:0] counter_select_i,
   output logic [CounterBits-1:0]                       counter_o
 );
@@ -354,6 +356,7 @@ module raster_pipeline
   ) u_counters (
     .clk_i        (clk_i),
     .rst_ni       (rst_ni),
+    .count_i      (count_i),
     .activity_i   (activity_o),
     .read_busy_i  (fill_valid_i),
     .write_busy_i (write_valid_o & write_ready_i),

@@ -11,7 +11,7 @@ namespace {
 
 using namespace rtl;
 
-constexpr std::array<std::pair<const char*, PipelineFault>, 17> kNames{{
+constexpr std::array<std::pair<const char*, PipelineFault>, 18> kNames{{
     {"none", PipelineFault::kNone},
     {"flip-triangle", PipelineFault::kFlipTriangle},
     {"flip-equation", PipelineFault::kFlipEquation},
@@ -29,6 +29,7 @@ constexpr std::array<std::pair<const char*, PipelineFault>, 17> kNames{{
     {"lose-fill", PipelineFault::kLoseFill},
     {"activity", PipelineFault::kActivity},
     {"counter", PipelineFault::kCounter},
+    {"rest", PipelineFault::kRest},
 }};
 
 /// What passes counts; the fault happens once, when as many as `at` have passed.
@@ -88,6 +89,9 @@ class FaultyPipeline final : public PipelineDecorator {
     }
   }
 
+  [[nodiscard]] bool holds_kept_state() const override {
+    return (fault_ == PipelineFault::kRest && due()) || pipeline().holds_kept_state();
+  }
   [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {
     return payload(pipeline().setup_triangle(), PipelineFault::kFlipTriangle);
   }
@@ -119,7 +123,7 @@ class FaultyPipeline final : public PipelineDecorator {
 
  private:
   /// Called once for each that passes.
-  bool due() { return left_-- == 0; }
+  bool due() const { return left_-- == 0; }
 
   [[nodiscard]] std::uint32_t event_of_fault() const {
     switch (fault_) {
@@ -151,7 +155,7 @@ class FaultyPipeline final : public PipelineDecorator {
   }
 
   PipelineFault fault_;
-  std::uint64_t left_;
+  mutable std::uint64_t left_;
   bool here_ = false;  ///< in this cycle
   PipelineInputs in_;
   mutable std::vector<std::uint32_t> flipped_;

@@ -29,6 +29,7 @@ enum class PipelineFault : std::uint8_t {
   kLoseFill,      ///< data of a request never comes
   kActivity,      ///< a stage spends a cycle on something else
   kCounter,       ///< a counter is one off
+  kRest,          ///< a cycle in which something moves is taken for the first of a rest
 };
 
 /// By the name of the bench's option.

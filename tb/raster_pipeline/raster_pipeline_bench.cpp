@@ -21,6 +21,7 @@
 #include "halfspace/timing/contract.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
+#include "halfspace/timing/rtl/rest_skipper.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 #include "raster_pipeline/fault.hpp"
 #include "timing/differences.hpp"
@@ -42,6 +43,8 @@ struct BenchOptions {
   std::string wave;
   double bins = 0;
   double throughput = 0;
+  std::string rests = "skip";
+  double skipped = 0;
 };
 
 struct Totals {
@@ -50,6 +53,7 @@ struct Totals {
   std::uint64_t cycles = 0;
   std::uint64_t compared = 0;
   double seconds = 0;                                  ///< in the verilated pipeline and its driver
+  rtl::RestCounts rests;                               ///< of the pipelines that skip them
   std::set<std::pair<std::size_t, std::size_t>> seen;  ///< stage and reason to wait
 };
 
@@ -159,14 +163,28 @@ class Bench {
     return plan;
   }
 
+  /// Skips rests of the pipeline, or not, or runs both ways.
   void compare(const Frame& frame, const Config& config, const StallPlan& stalls, std::uint64_t seed,
                const std::string& name) {
+    for (const bool skips : {false, true}) {
+      if (options_.rests == "both" || skips == (options_.rests == "skip")) {
+        compare_one(frame, config, stalls, seed, name, skips);
+      }
+    }
+  }
+
+  void compare_one(const Frame& frame, const Config& config, const StallPlan& stalls, std::uint64_t seed,
+                   const std::string& name, bool skips) {
     std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(config, options_.folder, seed);
     if (!options_.wave.empty()) {
       pipeline->trace_to(options_.wave);
     }
     if (fault_ != tb::PipelineFault::kNone) {
       pipeline = tb::with_fault(std::move(pipeline), fault_, options_.fault_at);
+    }
+    rtl::RestCounts rests;
+    if (skips && options_.wave.empty()) {
+      pipeline = rtl::skipping_rests(std::move(pipeline), &rests);
     }
     const auto engine = [&](Events& events) {
       return EngineOptions{.watch = {.keep_visible = true, .keep_sums = true, .observer = &events},
@@ -202,6 +220,8 @@ class Bench {
     totals_.triangles += run.times.decide.size();
     totals_.cycles += run.cycles.cycles;
     totals_.compared += report.compared;
+    totals_.rests.evaluated += rests.evaluated;
+    totals_.rests.skipped += rests.skipped;
     for (std::size_t stage = 0; stage < kStages; ++stage) {
       for (std::size_t reason = 0; reason < kMostStallReasons; ++reason) {
         if (run.cycles.stats.stage[stage].stall[reason] != 0) {
@@ -243,6 +263,13 @@ class Bench {
         "cycle of every packet compared: 0 differences\n",
         config_name(), totals_.frames, totals_.triangles, totals_.cycles,
         static_cast<double>(totals_.cycles) / totals_.seconds / 1e6, totals_.compared);
+    const std::uint64_t edges = totals_.rests.evaluated + totals_.rests.skipped;
+    const double skipped =
+        edges == 0 ? 0 : 100.0 * static_cast<double>(totals_.rests.skipped) / static_cast<double>(edges);
+    fmt::print("rests: {:.1f} % of {} cycles skipped\n", skipped, edges);
+    if (skipped < options_.skipped) {
+      throw Difference(fmt::format("fewer than {} % of the cycles were skipped", options_.skipped));
+    }
     std::size_t reasons = 0;
     std::string missed;
     for (std::size_t stage = 0; stage < kStages; ++stage) {
@@ -295,6 +322,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--throughput", options.throughput,
                  "quads a cycle that every frame must reach, without stalls");
+  app.add_option("--rests", options.rests,
+                 "cycles in which nothing in the pipeline can change; both: run each frame twice")
+      ->check(CLI::IsMember({"skip", "evaluate", "both"}))
+      ->capture_default_str();
+  app.add_option("--skipped", options.skipped, "percent of the cycles that must have been skipped")
+      ->capture_default_str();
   app.add_option("--fault", options.fault, "put a fault between the pipeline and the checkers")
       ->check(CLI::IsMember(tb::pipeline_fault_names()))
       ->capture_default_str();

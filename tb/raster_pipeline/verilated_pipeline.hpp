@@ -1,9 +1,13 @@
 /// rtl::VerilatedPipeline from a verilated class.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "common/ports.hpp"
@@ -20,6 +24,7 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
   explicit VerilatedRasterPipeline(std::uint64_t seed) : model_(seed) {
     model_->read_ready_i = 1;
     model_->write_ready_i = 1;
+    model_->count_i = 1;
   }
 
   void settle(const rtl::PipelineInputs& in, rtl::PipelineOutputs& out) override {
@@ -64,6 +69,14 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
     out.counter = m.counter_o;
   }
   void clock_edge() override { model_.clock_edge(); }
+  void count_cycles(bool on) override { model_->count_i = on; }
+  void keep_state() override {
+    kept_.resize(sizeof(State));
+    std::memcpy(kept_.data(), model_->rootp->vlSymsp, sizeof(State));
+  }
+  [[nodiscard]] bool holds_kept_state() const override {
+    return std::memcmp(kept_.data(), model_->rootp->vlSymsp, sizeof(State)) == 0;
+  }
   [[nodiscard]] bool clear_done() const override { return model_->clear_done_o != 0; }
   [[nodiscard]] bool flush_done() const override { return model_->flush_done_o != 0; }
 
@@ -107,12 +120,17 @@ class VerilatedRasterPipeline final : public rtl::VerilatedPipeline {
   }
 
  private:
+  /// The class in which Verilator has all state of a model: the root, modules that are classes of their own,
+  /// and pointers that stay.
+  using State = std::remove_reference_t<decltype(*std::declval<Model>().rootp->vlSymsp)>;
+
   template <class Port>
   static void set_number(Port& port, std::uint32_t value) {
     port = static_cast<Port>(value);
   }
 
   VerilatedModel<Model, kTraced> model_;
+  std::vector<std::byte> kept_;
 };
 
 }  // namespace halfspace::tb

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
+#include <string>
 
 #include "differences.hpp"
 #include "halfspace/core/functional.hpp"
@@ -51,6 +52,24 @@ std::uint64_t cases() {
 TEST_CASE("systemc equals recurrence on vkcube", "[timing]") {
   const Frame frame = read_ptf(HALFSPACE_SCENES "/vkcube.ptf.xz");
   CHECK(compare(frame, {}, {}) == "");
+}
+
+TEST_CASE("systemc runs a process for what it does, and hardly more", "[timing]") {
+  const Frame frame = read_ptf(HALFSPACE_SCENES "/vkcube.ptf.xz");
+  for (const char* machine : {"baseline", "small", "wide", "shallow", "slow_memory"}) {
+    const Config config = read_config(std::string(HALFSPACE_CONFIGS "/") + machine + ".toml");
+    std::uint64_t activations = 0;
+    EngineOptions options;
+    options.packet_times = true;
+    const TimedResult run = run_systemc(frame, config, options, {.vcd = {}, .activations = &activations});
+    std::uint64_t actions = run.times.decide.size();  // of the source
+    PacketTimes::lists([&](const char*, auto list) { actions += (run.times.*list).size(); });
+    const EarlyZCounters& early_z = run.frame.counters.early_z;
+    const std::uint64_t written = early_z.z_evicted + run.frame.flushed_lines;
+    actions += early_z.z_misses + 3 * written;  // a write is seen, begins and ends
+    CAPTURE(machine, activations, actions);
+    CHECK(10 * activations <= 11 * actions);
+  }
 }
 
 TEST_CASE("systemc equals recurrence on random machines", "[timing]") {

@@ -19,6 +19,7 @@ void add_bench_command(CLI::App& app, int& status) {
   add_bench_time(*bench);
   add_bench_sampled(*bench);
   add_bench_rtl(*bench);
+  add_bench_idle(*bench);
   add_bench_error(*bench, status);
 }
 

@@ -35,6 +35,7 @@ void add_bench_hi_z(CLI::App& bench);
 void add_bench_time(CLI::App& bench);
 void add_bench_sampled(CLI::App& bench);
 void add_bench_rtl(CLI::App& bench);
+void add_bench_idle(CLI::App& bench);
 void add_bench_error(CLI::App& bench, int& status);
 
 }  // namespace halfspace

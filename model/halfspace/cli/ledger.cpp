@@ -8,6 +8,7 @@
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/cli/percent.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/report/ledger_files.hpp"
 #include "halfspace/run/run.hpp"
@@ -28,10 +29,6 @@ struct LedgerOptions {
   bool json = false;
   bool no_draws = false;
 };
-
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-}
 
 /// A line for each draw: where its triangles and fragments end, and the bytes that it moves.
 void print_draws(const ledger::Ledger& ledger) {

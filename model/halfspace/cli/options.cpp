@@ -10,7 +10,6 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/validate.hpp"
-#include "halfspace/timing/rtl/pipeline_library.hpp"
 
 namespace halfspace {
 namespace {
@@ -248,6 +247,9 @@ void RtlOptions::add_to(CLI::App& command) {
       .add_option("--wave", wave,
                   "write an FST waveform; needs a pipeline of the folder checked or no_dfg: --rtl-folder")
       ->type_name("FILE");
+  command.add_flag(
+      "--rtl-every-cycle", every_cycle,
+      "evaluate the RTL also in cycles in which nothing in it can change; the result is the same");
 }
 
 void RtlOptions::apply(RunOptions& run) const {
@@ -255,17 +257,14 @@ void RtlOptions::apply(RunOptions& run) const {
   run.rtl_folder = folder.empty() ? program.parent_path().parent_path() / "lib" / "halfspace"
                                   : std::filesystem::path(folder);
   run.rtl_seed = parse_seed("--rtl-seed", seed);
+  run.rtl_every_cycle = every_cycle;
   run.wave = wave;
 }
 
 std::unique_ptr<rtl::VerilatedPipeline> RtlOptions::pipeline(const Config& config) const {
   RunOptions run;
   apply(run);
-  std::unique_ptr<rtl::VerilatedPipeline> pipeline = rtl::load_pipeline(config, run.rtl_folder, run.rtl_seed);
-  if (!run.wave.empty()) {
-    pipeline->trace_to(run.wave);
-  }
-  return pipeline;
+  return verilated_pipeline(config, run);
 }
 
 void TimelineOptions::add_to(CLI::App& command, CLI::Option* out) {

@@ -89,6 +89,7 @@ struct RtlOptions {
   std::string folder;  ///< empty: lib/halfspace beside the program's folder
   std::string seed;
   std::string wave;
+  bool every_cycle = false;
 
   void add_to(CLI::App& command);
   void add_folder_to(CLI::App& command);

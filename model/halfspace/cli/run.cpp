@@ -52,6 +52,7 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, !options.rtl.wave.empty(), "--wave", &FidelityInfo::rtl);
   require(fidelity, !options.rtl.folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
   require(fidelity, !options.rtl.seed.empty(), "--rtl-seed", &FidelityInfo::rtl);
+  require(fidelity, options.rtl.every_cycle, "--rtl-every-cycle", &FidelityInfo::rtl);
 }
 
 /// Records what was asked for and shows progress.

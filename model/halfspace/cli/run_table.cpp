@@ -1,4 +1,5 @@
 #include "halfspace/cli/run_table.hpp"
+#include "halfspace/cli/percent.hpp"
 
 #include <fmt/format.h>
 
@@ -12,10 +13,6 @@
 
 namespace halfspace {
 namespace {
-
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-}
 
 void row(std::string_view unit, std::uint64_t value, const std::string& what) {
   fmt::print("  {:<16}{:>12}  {}\n", unit, value, what);

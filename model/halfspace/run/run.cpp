@@ -16,6 +16,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/pipeline_library.hpp"
+#include "halfspace/timing/rtl/rest_skipper.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
 
@@ -33,6 +34,7 @@ void check_options(Fidelity fidelity, const RunOptions& options) {
   require(fidelity, options.cycle_observer != nullptr, "a timeline", &FidelityInfo::timeline);
   require(fidelity, !options.vcd.empty(), "a VCD file", &FidelityInfo::vcd);
   require(fidelity, !options.wave.empty(), "an FST file", &FidelityInfo::rtl);
+  require(fidelity, options.rtl_every_cycle, "every cycle of the RTL", &FidelityInfo::rtl);
 }
 
 /// Names of the fidelities that `support` something, or of all.
@@ -56,11 +58,7 @@ RunResult timed(TimedResult result) {
 
 RunResult verilated(const Frame& frame, const Config& config, const EngineOptions& engine,
                     const RunOptions& options) {
-  const std::unique_ptr<rtl::VerilatedPipeline> pipeline =
-      rtl::load_pipeline(config, options.rtl_folder, options.rtl_seed);
-  if (!options.wave.empty()) {
-    pipeline->trace_to(options.wave);
-  }
+  const std::unique_ptr<rtl::VerilatedPipeline> pipeline = verilated_pipeline(config, options);
   RtlResult result = run_rtl(frame, config, engine, *pipeline);
   RunResult run = timed(std::move(result.timed));
   run.rtl = std::move(result.report);
@@ -82,7 +80,7 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
     case Fidelity::kRecurrence:
       return timed(run_recurrence(frame, config, engine));
     case Fidelity::kSystemc:
-      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd}));
+      return timed(run_systemc(frame, config, engine, {.vcd = options.vcd, .activations = nullptr}));
     case Fidelity::kRtl:
       return verilated(frame, config, engine, options);
   }
@@ -104,6 +102,16 @@ void require(Fidelity fidelity, bool given, std::string_view option, bool Fideli
     throw InputError(fmt::format("fidelity is '{}', which does not support {}; legal with it: {}",
                                  info(fidelity).name, option, fidelity_names(support)));
   }
+}
+
+std::unique_ptr<rtl::VerilatedPipeline> verilated_pipeline(const Config& config, const RunOptions& options) {
+  std::unique_ptr<rtl::VerilatedPipeline> pipeline =
+      rtl::load_pipeline(config, options.rtl_folder, options.rtl_seed);
+  if (!options.wave.empty()) {
+    pipeline->trace_to(options.wave);
+    return pipeline;
+  }
+  return options.rtl_every_cycle ? std::move(pipeline) : rtl::skipping_rests(std::move(pipeline));
 }
 
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options) {

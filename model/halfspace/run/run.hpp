@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -11,6 +12,7 @@
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/cycle_observer.hpp"
+#include "halfspace/timing/rtl/verilated_pipeline.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
@@ -30,8 +32,12 @@ struct RunOptions {
   std::filesystem::path vcd;                ///< waveform of links and stages, with or without .vcd; needs vcd
   std::filesystem::path rtl_folder;         ///< where `make rtl` put the verilated pipelines
   std::uint64_t rtl_seed = 0;               ///< decides what the RTL's registers hold before reset
-  std::filesystem::path wave;               ///< FST waveform; needs rtl
+  bool rtl_every_cycle = false;             ///< evaluate the RTL also in cycles in which nothing can change
+  std::filesystem::path wave;               ///< FST waveform, of every cycle; needs rtl
 };
+
+/// The verilated pipeline of `config`, as the options want it. Throws InputError where none fits.
+std::unique_ptr<rtl::VerilatedPipeline> verilated_pipeline(const Config& config, const RunOptions& options);
 
 /// Runs `frame` on the machine of `config`, both valid. Image, counters and events are the same in every
 /// fidelity. Throws InputError where an option is given that the fidelity does not support or whose value is

@@ -16,6 +16,9 @@ class PipelineDecorator : public VerilatedPipeline {
 
   void settle(const PipelineInputs& in, PipelineOutputs& out) override { pipeline_->settle(in, out); }
   void clock_edge() override { pipeline_->clock_edge(); }
+  void count_cycles(bool on) override { pipeline_->count_cycles(on); }
+  void keep_state() override { pipeline_->keep_state(); }
+  [[nodiscard]] bool holds_kept_state() const override { return pipeline_->holds_kept_state(); }
   [[nodiscard]] bool clear_done() const override { return pipeline_->clear_done(); }
   [[nodiscard]] bool flush_done() const override { return pipeline_->flush_done(); }
   [[nodiscard]] std::span<const std::uint32_t> setup_triangle() const override {

@@ -33,6 +33,8 @@ struct PipelineInputs {
   std::vector<std::uint32_t> state;     ///< draw_state_t
   std::vector<std::uint32_t> fill;
   std::vector<std::uint32_t> late_keep;  ///< of the tile, 4 bits a quad
+
+  friend bool operator==(const PipelineInputs&, const PipelineInputs&) = default;
 };
 
 /// Memory always takes requests and writes.
@@ -52,6 +54,8 @@ struct PipelineOutputs {
   std::uint32_t activity = 0;  ///< of all stages, 3 bits each, setup's lowest
   std::uint32_t events = 0;
   std::uint64_t counter = 0;
+
+  friend bool operator==(const PipelineOutputs&, const PipelineOutputs&) = default;
 };
 
 class VerilatedPipeline {
@@ -64,6 +68,12 @@ class VerilatedPipeline {
   /// Clock low, inputs applied; outputs as they are then.
   virtual void settle(const PipelineInputs& in, PipelineOutputs& out) = 0;
   virtual void clock_edge() = 0;
+  /// Whether the counters of cycles count from the next settled cycle on; at first they do.
+  virtual void count_cycles(bool on) = 0;
+  /// Keeps what every register, wire and input holds in the settled cycle.
+  virtual void keep_state() = 0;
+  /// Whether all of them hold that in this one.
+  [[nodiscard]] virtual bool holds_kept_state() const = 0;
   /// Outputs that are registers, as they are after the clock edge.
   [[nodiscard]] virtual bool clear_done() const = 0;
   [[nodiscard]] virtual bool flush_done() const = 0;

@@ -3,7 +3,8 @@
 /// A link works with time stamps. The producer asks from which cycle on it may use a credit, the consumer
 /// from which cycle on it may take the packet at the head; each then waits for the latest of all it needs,
 /// and acts once. Whatever one side does shows on the other in a later cycle only, so the order in which the
-/// kernel runs the processes of a cycle decides nothing.
+/// kernel runs the processes of a cycle decides nothing. A side that has to wait for the other one is run in
+/// the cycle from which on it may act, not in that in which the other one acts.
 #pragma once
 
 #include <deque>
@@ -80,10 +81,12 @@ class CreditLink : public sc_core::sc_prim_channel,
     if (wanted <= free) {
       return 0;
     }
-    while (returns_.size() < wanted - free) {
-      wait(returned_);
+    const std::size_t missing = wanted - free;
+    while (returns_.size() < missing) {
+      awaited_ = missing;
+      run_.clock.wait_for(returned_);
     }
-    return returns_[wanted - free - 1];
+    return returns_[missing - 1];
   }
 
   void use_credit() override {
@@ -104,12 +107,15 @@ class CreditLink : public sc_core::sc_prim_channel,
     const Cycle held_back = stalls_ ? run_.stalls.cycles(*stalls_, packets_) : 0;
     ++packets_;
     queue_.push_back({std::move(token), begun + latency_ + held_back});
-    arrived_.notify();
+    if (std::exchange(waits_, false)) {
+      arrived_.notify(run_.clock.time_until(queue_.front().visible));
+    }
   }
 
   Cycle visible() override {
     while (queue_.empty()) {
-      wait(arrived_);
+      waits_ = true;
+      run_.clock.wait_for(arrived_);
     }
     return queue_.front().visible;
   }
@@ -124,7 +130,10 @@ class CreditLink : public sc_core::sc_prim_channel,
     }
     begun_.pop_front();
     returns_.push_back(leave + 1);
-    returned_.notify();
+    if (returns_.size() == awaited_) {
+      awaited_ = 0;
+      returned_.notify(run_.clock.time_until(leave + 1));
+    }
     if (signal_ != nullptr) {
       signal_->add(leave + 1, -1);
     }
@@ -197,6 +206,8 @@ class CreditLink : public sc_core::sc_prim_channel,
   std::size_t used_ = 0;       ///< credits, as of the last packet that used one
   std::deque<Cycle> begun_;    ///< when each credit in use was taken, until its packet is
   std::deque<Cycle> returns_;  ///< cycles from which credits of packets that were taken are free again
+  bool waits_ = false;         ///< the consumer, for a packet
+  std::size_t awaited_ = 0;    ///< returns for which the producer waits; 0 where it does not
   sc_core::sc_event arrived_{sc_core::sc_gen_unique_name("arrived")};
   sc_core::sc_event returned_{sc_core::sc_gen_unique_name("returned")};
   Occupancy occupancy_;

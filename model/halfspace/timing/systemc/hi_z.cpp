@@ -10,24 +10,37 @@ namespace halfspace::systemc {
 
 void JobReturns::covered(bool burst, Cycle taken) {
   returns_.push_back({.known = !burst, .ready = taken + kHiZEmptyLatency, .update = {}});
-  changed_.notify();
+  wake();
 }
 
 void JobReturns::tested(const HiZUpdate& update, Cycle tested) {
   const auto burst = std::ranges::find(returns_, false, &Return::known);
   *burst = {.known = true, .ready = tested + kHiZUpdateLatency, .update = update};
-  changed_.notify();
+  wake();
 }
 
-const HiZUpdate& JobReturns::next() {
-  while (returns_.empty() || !returns_.front().known) {
-    sc_core::wait(changed_);
+bool JobReturns::known(std::size_t jobs) const {
+  return returns_.size() >= jobs &&
+         std::all_of(returns_.begin(), returns_.begin() + static_cast<std::ptrdiff_t>(jobs),
+                     [](const Return& each) { return each.known; });
+}
+
+void JobReturns::wake() {
+  if (awaited_ != 0 && known(awaited_)) {
+    known_.notify(clock_.time_until(returns_[awaited_ - 1].ready));
+    awaited_ = 0;
   }
-  return returns_.front().update;
+}
+
+void JobReturns::wait_for(std::size_t jobs) {
+  while (!known(jobs)) {
+    awaited_ = jobs;
+    clock_.wait_for(known_);
+  }
 }
 
 HiZ::HiZ(const sc_core::sc_module_name& name, RunState& run)
-    : sc_module(name), in("in"), out("out"), run_(run), meter_(Stage::kHiZ, run) {
+    : sc_module(name), in("in"), out("out"), returns(run.clock), run_(run), meter_(Stage::kHiZ, run) {
   SC_THREAD(decide);
 }
 
@@ -43,9 +56,12 @@ void HiZ::begin_frame() {
 }
 
 Cycle HiZ::see(std::uint64_t end, Cycle from) {
+  if (seen_ < end) {
+    returns.wait_for(static_cast<std::size_t>(end - seen_));
+  }
   Cycle last = 0;
   for (; seen_ < end; ++seen_) {
-    unit_.retire(returns.next());
+    unit_.retire(returns.update());
     last = std::max({returns.ready(), next_update_, from});
     next_update_ = last + 1;
     returns.pop();

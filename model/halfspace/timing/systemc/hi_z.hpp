@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <deque>
 #include <systemc>
 
@@ -16,6 +17,8 @@ namespace halfspace::systemc {
 /// what is stored behind it.
 class JobReturns {
  public:
+  explicit JobReturns(SimClock& clock) : clock_(clock) {}
+
   void begin_frame() { returns_.clear(); }
 
   /// The next job's coverage is taken in cycle `taken`.
@@ -23,9 +26,11 @@ class JobReturns {
   /// The last beat of the next burst is tested in cycle `tested`.
   void tested(const HiZUpdate& update, Cycle tested);
 
-  /// The first job that hi_z has not seen; suspends the calling thread until it is known when it can.
-  const HiZUpdate& next();
-  /// The first cycle in which it can.
+  /// Suspends the calling thread until it is known of the first `jobs` that hi_z has not seen when it can.
+  void wait_for(std::size_t jobs);
+  /// Of the first of them.
+  [[nodiscard]] const HiZUpdate& update() const { return returns_.front().update; }
+  /// The first cycle in which it can be seen.
   [[nodiscard]] Cycle ready() const { return returns_.front().ready; }
   void pop() { returns_.pop_front(); }
 
@@ -35,8 +40,14 @@ class JobReturns {
     Cycle ready = 0;
     HiZUpdate update;
   };
+
+  [[nodiscard]] bool known(std::size_t jobs) const;
+  void wake();
+
+  SimClock& clock_;
   std::deque<Return> returns_;
-  sc_core::sc_event changed_{sc_core::sc_gen_unique_name("job_returned")};
+  std::size_t awaited_ = 0;  ///< jobs for which hi_z waits; 0 where it does not
+  sc_core::sc_event known_{sc_core::sc_gen_unique_name("job_returned")};
 };
 
 class HiZ : public sc_core::sc_module {

@@ -67,6 +67,9 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   /// still at work.
   void check();
 
+  /// How often the kernel has run a process of the pipeline that waited.
+  [[nodiscard]] std::uint64_t activations() const { return run_.clock.activations(); }
+
   /// Of the frame that ended last. Reads the depth images from memory.
   TimedResult take_result();
 

@@ -32,9 +32,9 @@ class PacketsInPipe {
     }
   }
   /// Suspends the calling thread until the last one has left.
-  void wait_until_empty() {
+  void wait_until_empty(SimClock& clock) {
     while (count_ != 0) {
-      sc_core::wait(empty_);
+      clock.wait_for(empty_);
     }
   }
 

@@ -105,6 +105,9 @@ TimedResult run_systemc(const Frame& frame, const Config& config, const EngineOp
   }
   sc_core::sc_start();
   platform.pipeline.check();
+  if (systemc.activations != nullptr) {
+    *systemc.activations = platform.pipeline.activations();
+  }
   return platform.pipeline.take_result();
 }
 

@@ -3,6 +3,7 @@
 /// memory.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "halfspace/config/config.hpp"
@@ -12,6 +13,7 @@ namespace halfspace {
 
 struct SystemcOptions {
   std::filesystem::path vcd;  ///< a waveform of links and stages, with or without .vcd; empty: none
+  std::uint64_t* activations = nullptr;  ///< gets how often a process was run; null: nobody asks
 };
 
 /// Runs `frame` on the machine of `config`. Image, counters, events, cycles and times are those of

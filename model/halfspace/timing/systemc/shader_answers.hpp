@@ -20,9 +20,9 @@ class ShaderAnswers {
   }
 
   /// That cycle, of the oldest that was not taken; suspends the calling thread until it is known.
-  Cycle take() {
+  Cycle take(SimClock& clock) {
     while (ready_.empty()) {
-      sc_core::wait(answered_);
+      clock.wait_for(answered_);
     }
     const Cycle ready = ready_.front();
     ready_.pop_front();

@@ -30,16 +30,27 @@ class SimClock {
   }
 
   /// Suspends the calling thread until `cycle`, if that is still to come.
-  void wait_until(Cycle cycle) const {
+  void wait_until(Cycle cycle) {
     const sc_core::sc_time left = time_until(cycle);
     if (left.value() != 0) {
       sc_core::wait(left);
+      ++activations_;
     }
   }
+
+  /// Suspends the calling thread until the event.
+  void wait_for(const sc_core::sc_event& event) {
+    sc_core::wait(event);
+    ++activations_;
+  }
+
+  /// How often a thread that waited here was run.
+  [[nodiscard]] std::uint64_t activations() const { return activations_; }
 
  private:
   std::uint64_t ticks_;  ///< of the kernel's resolution in a cycle
   std::uint64_t origin_ = 0;
+  std::uint64_t activations_ = 0;
 };
 
 }  // namespace halfspace::systemc

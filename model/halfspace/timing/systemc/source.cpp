@@ -37,7 +37,7 @@ void Source::execute_commands() {
   run_.guard([&] {
     for (;;) {
       while (commands_.empty()) {
-        wait(submitted_);
+        run_.clock.wait_for(submitted_);
       }
       if (!in_frame_) {
         begin_frame();
@@ -68,7 +68,7 @@ void Source::begin_frame() {
 
 /// Waits for the first cycle in which everything has left the pipe, and returns it.
 Cycle Source::drain() {
-  run_.in_pipe.wait_until_empty();
+  run_.in_pipe.wait_until_empty(run_.clock);
   control_.write_all_late(next_arrival_);
   const Cycle written = depth->wait_until_written();
   const Cycle from = std::max({control_.idle_from(), written, next_arrival_});

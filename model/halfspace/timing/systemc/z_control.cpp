@@ -23,7 +23,7 @@ void ZControl::clear(std::uint32_t surface, std::uint32_t code) {
 
 Cycle ZControl::wait_until_written() {
   while (cache_.writes_done != cache_.writes_sent) {
-    wait(cache_.exit_changed);
+    run_.clock.wait_for(cache_.exit_changed);
   }
   return cache_.next_write;
 }

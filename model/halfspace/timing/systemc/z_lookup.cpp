@@ -82,11 +82,11 @@ Cycle ZLookup::resolve(int part, Cycle earliest) {
   // so is stored in memory.
   meter_.waits_for(stall::kLookupWriteBack);
   while (exit.looked_up) {
-    wait(cache_.exit_changed);
+    run_.clock.wait_for(cache_.exit_changed);
   }
   const bool fetch = (looked_up_.sure >> part & 1) == 0 && !cache_.lines.cleared(line);
   while (exit.write > cache_.writes_done) {
-    wait(cache_.exit_changed);
+    run_.clock.wait_for(cache_.exit_changed);
   }
   const Cycle left = exit.left;
   meter_.stalled(stall::kLookupWriteBack, left);

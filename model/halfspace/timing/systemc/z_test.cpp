@@ -81,7 +81,7 @@ void ZTest::make_way(const PendingToken& token) {
 /// Does the oldest one.
 void ZTest::write_late() {
   const LateWrite& late = late_.front();
-  next_ = std::max(next_, answers.take()) +
+  next_ = std::max(next_, answers.take(run_.clock)) +
           static_cast<Cycle>(beats(late.quads, run_.config.early_z.quads_per_cycle));
   with_tile_size(run_.config.tile_walker.tile_size, [&](auto size) { write<size()>(late); });
   late_.pop_front();
