@@ -10,6 +10,7 @@
 #include "halfspace/units/block_walker.hpp"
 #include "halfspace/units/edge_evaluator.hpp"
 #include "halfspace/units/hi_z_plane.hpp"
+#include "halfspace/units/late_writes.hpp"
 #include "halfspace/units/packing.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/tile_mask.hpp"
@@ -123,9 +124,11 @@ class HiZMaker {
     if (random_.below(2) == 0) {
       state.func = random_.below(3) == 0 ? DepthFunc::kGequal : DepthFunc::kLess;  // most games
     }
+    state.late = state.write && touches_depth(state) && random_.below(4) == 0;
     DrawStatePacket packet{.format = static_cast<std::uint8_t>(state.format),
                            .test = state.test,
                            .write = state.write,
+                           .late = state.late,
                            .func = static_cast<std::uint8_t>(state.func),
                            .clear_code = surface.clear_code,
                            .first_tile = static_cast<std::uint32_t>(random_.bits()),
@@ -266,10 +269,15 @@ class HiZMaker {
         coverage.tile_x;
     std::uint32_t* const stored = &surface.codes[at * static_cast<std::size_t>(TileSize * TileSize)];
     TileCodes<TileSize> codes{};
-    z_test<TileSize>(triangle, quad_generator<TileSize>(coverage), state, stored, codes);
+    const TileMask passed =
+        z_test<TileSize>(triangle, quad_generator<TileSize>(coverage), state, stored, codes);
     const std::uint8_t touched =
         touches_depth(state) ? parts_of_mask<TileSize>(coverage.mask, shape_.widths.ZParts) : std::uint8_t{0};
     job.update = hi_z_update<TileSize>(stored, touched, shape_.widths.ZParts);
+    if (state.late) {
+      allow_for_late_write(job.update, triangle.depth, state);
+      write_codes<TileSize>(codes.data(), passed, stored);
+    }
     if (style_ == HiZStyle::kMadeUp && state.test) {
       make_up(surface.format, job.update);
     }
