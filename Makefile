@@ -47,6 +47,17 @@ SCENES := $(wildcard scenes/*.ptf.xz)
 FRAMES = $(or $(HALFSPACE_FRAMES),$(shell sed -n 's/^HALFSPACE_FRAMES:PATH=//p' $(BUILD)/CMakeCache.txt))
 CAPTURED = $(filter-out $(addprefix %/,$(notdir $(SCENES))),$(wildcard $(FRAMES)/*.ptf.xz))
 
+RESTING = baseline small wide shallow slow_memory
+.PHONY: bench-idle
+bench-idle: build/release/build.ninja ## Measure cycles that SystemC and the RTL leave out; write docs/guides/time.md's table.
+	cmake --build --preset release --target halfspace_cli $(addprefix halfspace_rtl_,$(RESTING))
+	tools/write_figures.py bench-idle --captured $(filter %/openarena_gl2.ptf.xz,$(CAPTURED))
+
+.PHONY: idle-toggles
+idle-toggles: build/release/build.ninja ## Count what toggles in units of the RTL that do nothing, with fst2vcd (Debian: gtkwave); write docs/guides/time.md's table.
+	cmake --build --preset release --target halfspace_cli halfspace_rtl_small_no_dfg
+	tools/write_figures.py idle-toggles
+
 .PHONY: bench-error
 bench-error: build/release/build.ninja $(PLOT_TOOLS) ## Measure every fidelity beside the RTL; write docs/guides/error.md's tables and picture.
 	cmake --build --preset release --target halfspace_cli halfspace_rtl_baseline

@@ -167,6 +167,33 @@ def bench_sampled(tools):
     return table(tools, "sampled", *lists)
 
 
+def bench_idle(tools):
+    """What SystemC and the RTL leave out, on the named machines and with a longer latency."""
+    inputs = ["scenes/vkcube.ptf.xz", *tools.captured]
+    names = ("baseline", "small", "wide", "shallow", "slow_memory")
+    machines = [["--config", f"configs/{name}.toml"] for name in names]
+    machines += [[*machines[1], "--set", "memory.latency=1000"]]
+    text = [output(tools.program, "bench", "idle", "--repeat", "1", *machine, *inputs) for machine in machines]
+    method, rows = text[0].split("\n\n", 1)
+    rows = [rows, *(each.split("|\n", 2)[2] for each in text[1:])]
+    names = "|".join(map(frame_name, tools.captured)) or "$"
+    rows = re.sub(rf"\| ({names}) \|", rf"| \1{CAPTURED} |", "\n".join(rows))
+    return f"    halfspace bench idle --repeat 1 --config MACHINE FRAME...\n\n{processor()}; {method}.\n\n{rows}"
+
+
+def idle_toggles(tools):
+    """What toggles in a waveform of the RTL."""
+    run = ["run", "scenes/vkcube.ptf.xz", "--config", "configs/small.toml", "--fidelity", "rtl"]
+    run += ["--rtl-folder", "build/release/lib/halfspace/no_dfg", "--wave"]
+    with tempfile.TemporaryDirectory() as folder:
+        wave = pathlib.Path(folder) / "run.fst"
+        output(tools.program, *run, wave)
+        rows = output(ROOT / "tools/count_toggles.py", wave)
+    command = textwrap.indent("\n".join(textwrap.wrap(" ".join(["halfspace", *run, "run.fst"]), 88, break_on_hyphens=False)), "    ")
+    command = command.replace("\n", " \\\n  ")
+    return f"{command}\n    tools/count_toggles.py run.fst\n\n{rows}"
+
+
 def hi_z_kills(tools):
     """What hi_z stops of the bursts that die."""
     inputs = [*SCENES[:1], *tools.captured, "synthetic:large_ftb:full"]
@@ -471,6 +498,8 @@ FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
     "bench-time": ("docs/guides/time.md", lambda tools: table(tools, "time", "--repeat", "5")),
+    "bench-idle": ("docs/guides/time.md", bench_idle),
+    "idle-toggles": ("docs/guides/time.md", idle_toggles),
     "bench-sampled": ("docs/guides/time.md", bench_sampled),
     "depth-traffic": ("docs/units/z_codec.md", depth_traffic),
     "hi-z-kills": ("docs/units/hi_z.md", hi_z_kills),
@@ -494,7 +523,8 @@ FIGURES = {
     "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
 }
 # The others need the RTL, a profiler or minutes: a target of the Makefile each.
-SLOW = ("depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profile", "bench-stages", "bench-surfaces")
+SLOW = ("bench-idle", "idle-toggles", "depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profile")
+SLOW += ("bench-stages", "bench-surfaces")
 ALL = [name for name in FIGURES if name not in SLOW]
 
 

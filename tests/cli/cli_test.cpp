@@ -220,6 +220,8 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
               {"--fidelity", "sampled", "functional,recurrence,systemc,rtl"});
   check_error(place.run("run " + cube + " --fidelity recurrence --vcd w.vcd"),
               {"--vcd", "recurrence", "systemc"});
+  check_error(place.run("run " + cube + " --fidelity recurrence --rtl-every-cycle"),
+              {"--rtl-every-cycle", "recurrence", "rtl"});
   check_error(place.run("run " + cube + " --fidelity systemc --vcd /proc/nowhere/w"),
               {"/proc/nowhere/w.vcd", "cannot be written"});
   check_error(place.run("run " + cube + " --seed 1"), {"--seed", "functional", "recurrence"});
