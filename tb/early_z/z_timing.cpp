@@ -274,6 +274,8 @@ class Contract {
                      control_next_, late_next_});
   }
 
+  [[nodiscard]] const char* idle_reason() const { return idle() == late_next_ ? "late" : "idle"; }
+
   /// The late writes that are out, before a clear or a flush; false where the run ended before.
   bool drain_late(const CommandLog& seen, const char* what) {
     if (late_written_ == late_.size()) {
@@ -296,7 +298,7 @@ class Contract {
       return;
     }
     const Cycle begin = std::max(idle(), seen.arrive);
-    expect("clear before burst", test_last_.size(), begin, seen.begin, "idle");
+    expect("clear before burst", test_last_.size(), begin, seen.begin, idle_reason());
     const auto tiles = static_cast<Cycle>(command.last - command.first + 1);
     const auto width = static_cast<Cycle>(shape_.clear_tiles);
     control_next_ = begin + std::max((tiles + width - 1) / width, static_cast<Cycle>(shape_.sets()));
@@ -315,7 +317,7 @@ class Contract {
       return;
     }
     Cycle scan_next = std::max(idle(), seen.arrive);
-    expect("flush before burst", test_last_.size(), scan_next, seen.begin, "idle");
+    expect("flush before burst", test_last_.size(), scan_next, seen.begin, idle_reason());
     std::uint32_t looked_at = 0;
     for (const FlushedLine& line : command.flushed) {
       const auto buffers = static_cast<std::size_t>(shape_.write_buffers);
