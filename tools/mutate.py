@@ -71,7 +71,7 @@ GROUPS = {
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
     "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
     "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
-    "z_late": Group("early_z", ["late2", "t4", "parts"], ["--bursts", "32000"], ["z_late_writes"]),
+    "z_late": Group("early_z", ["late2", "late16", "t4", "late_least"], ["--bursts", "32000"], ["z_late_writes"]),
     "z_codec": Group(
         "z_codec",
         ["t4_p1", "t8_p2"],
