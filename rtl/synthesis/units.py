@@ -222,6 +222,7 @@ def _early_z_parts() -> Unit:
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),
             *(Configuration("z_extremes", {"TILE_SIZE": tile}) for tile in (8, 16)),
+            Configuration("z_late_writes", {}, {"Queue": 16}),
         ),
     )
 

@@ -92,8 +92,8 @@ ZCoverage::ZCoverage(const EarlyZShape& shape) {
     }
     for (const char* bin :
          {"late writes before a burst: line hit", "late writes before a burst: line replaced",
-          "late writes before a clear", "late writes before a flush",
-          "shader keeps all", "shader keeps none", "shader keeps some", "late burst of which nothing passed"}) {
+          "late writes before a clear", "late writes before a flush", "shader keeps all", "shader keeps none",
+          "shader keeps some", "late burst of which nothing passed"}) {
       counts_[bin] = 0;
     }
     if (shape.late_queue > 1) {
@@ -168,7 +168,9 @@ void ZCoverage::late(const LateWrite& late) {
     hit("late burst of which nothing passed");
     return;
   }
-  hit(late.kept == 0 ? "shader keeps none" : late.kept == late.passed ? "shader keeps all" : "shader keeps some");
+  hit(late.kept == 0             ? "shader keeps none"
+      : late.kept == late.passed ? "shader keeps all"
+                                 : "shader keeps some");
   if (late.kept != 0 && late.kept_parts != late.passed_parts) {
     hit("shader keeps nothing of a part");
   }

@@ -10,6 +10,7 @@
 #include "common/handshake_monitor.hpp"
 #include "common/random.hpp"
 #include "common/scoreboard.hpp"
+#include "early_z/shader.hpp"
 #include "early_z/z_timing.hpp"
 #include "halfspace/timing/contract.hpp"
 #include "halfspace/units/packing.hpp"
@@ -33,12 +34,6 @@ struct Fill {
   std::vector<std::vector<std::uint32_t>> beats;
 };
 
-/// What the shader says of a late burst, in a cycle to come.
-struct Answer {
-  std::uint64_t cycle = 0;
-  const LateWrite* late = nullptr;
-};
-
 class Run {
  public:
   Run(EarlyZDut& dut, const EarlyZShape& shape, const Workload& workload, const ZRunOptions& options,
@@ -55,25 +50,13 @@ class Run {
         idle_(options.idle, 0, options.seed ^ kIdleSeed),
         stall_(options.stall, 0, options.seed ^ kStallSeed),
         slow_(options.memory, 0, options.seed ^ kMemorySeed),
-        shader_(options.seed ^ kLateSeed) {
+        shader_(options, shape, options.seed ^ kLateSeed),
+        order_(memory_order(workload)) {
     in_.equation.resize(words_for(packed_bits<DepthEquationPacket>(shape.widths)));
     in_.state.resize(words_for(packed_bits<DrawStatePacket>(shape.widths)));
     in_.beat.resize(words_for(packed_bits<QuadBeat>(shape.widths)));
     in_.late_keep.resize(words_for(shape.widths.MaskBits));
     in_.fill.resize(words_for(8 * std::min(shape.read_bytes, shape.line_bytes())));
-    for (const Command& command : workload.commands) {
-      for (const ZMiss& miss : command.misses.parts()) {
-        if (miss.fetch) {
-          lines_read_.push_back(miss.line);
-        }
-        if (miss.write_back) {
-          lines_written_.push_back(miss.victim);
-        }
-      }
-      for (const FlushedLine& flushed : command.flushed) {
-        lines_written_.push_back(flushed.line);
-      }
-    }
   }
 
   ZRunResult run() {
@@ -87,7 +70,7 @@ class Run {
       round(0);
     }
     if (!failure_) {
-      compare_memory();
+      fail(compare_memory(workload_, memory_, cycle_, lines_));
     }
     if (!options_.coverage_file.empty()) {
       dut_.write_coverage(options_.coverage_file);
@@ -115,7 +98,7 @@ class Run {
     read_law_.clear();
     write_law_.clear();
     fills_.clear();
-    answers_.clear();
+    shader_.clear();
     outstanding_.clear();
     command_ = beat_ = written_slots_ = 0;
     offered_ = waits_done_ = false;
@@ -285,7 +268,7 @@ class Run {
       const Command& command = workload_.commands[outstanding_.front()];
       outstanding_.pop_front();
       if (log.taken.size() == command.tested.size()) {
-        to_shader(command.late);
+        shader_.take(command.late, cycle_);
       }
       fail(scoreboard_.receive(cycle_, out_.beat));
       ++beats_;
@@ -293,49 +276,11 @@ class Run {
     }
   }
 
-  /// The last beat of a late burst is in the shader, which will answer.
-  void to_shader(const LateWrite& late) {
-    if (!late.out) {
-      return;
-    }
-    const std::uint64_t latency =
-        options_.late_varies ? 1 + shader_.below(options_.late_latency) : options_.late_latency;
-    answers_.push_back(
-        {std::max(cycle_ + latency, answers_.empty() ? 0 : answers_.back().cycle + 1), &late});
-  }
-
-  /// Its answers. Without one the wires hold anything.
   void shader() {
-    in_.late_valid = false;
-    for (std::uint32_t& word : in_.late_keep) {
-      word = static_cast<std::uint32_t>(shader_.bits());
-    }
-    mask_keep();
-    const bool from_here = log_.answers.size() >= options_.fault_packet;
-    if (options_.fault == ZFault::kExtraAnswer && from_here && answers_.empty() && outstanding_.empty()) {
-      in_.late_valid = true;
-      return;
-    }
-    if (answers_.empty() || cycle_ < answers_.front().cycle ||
-        (from_here && options_.fault == ZFault::kLoseAnswer)) {
-      return;
-    }
-    const LateWrite& late = *answers_.front().late;
-    in_.late_valid = true;
-    in_.late_keep = late.keep;
-    if (options_.fault == ZFault::kFlipKeep && log_.answers.size() == options_.fault_packet) {
-      in_.late_keep[late.passed_word] ^= late.passed_bit;
-    }
-    log_.answers.push_back(cycle_ - (from_here && options_.fault == ZFault::kLateAnswer ? 1 : 0));
-    answers_.pop_front();
-    idle_cycles_ = 0;
-  }
-
-  /// Verilator wants the bits above a port's width to be 0.
-  void mask_keep() {
-    const int bits = shape_.widths.MaskBits % 32;
-    if (bits != 0) {
-      in_.late_keep.back() &= (1u << bits) - 1;
+    if (shader_.drive(in_, cycle_, log_.answers.size(), outstanding_.empty())) {
+      const bool late = options_.fault == ZFault::kLateAnswer && log_.answers.size() >= options_.fault_packet;
+      log_.answers.push_back(cycle_ - (late ? 1 : 0));
+      idle_cycles_ = 0;
     }
   }
 
@@ -375,7 +320,7 @@ class Run {
       return;
     }
     idle_cycles_ = 0;
-    if (!is_next("request for", out_.read_line, log_.requests.size(), lines_read_)) {
+    if (!is_next("request for", out_.read_line, log_.requests.size(), order_.read)) {
       return;
     }
     log_.requests.push_back({cycle_, out_.read_line});
@@ -403,7 +348,7 @@ class Run {
       return;
     }
     idle_cycles_ = 0;
-    if (!is_next("write of", out_.write_line, lines_done_, lines_written_)) {
+    if (!is_next("write of", out_.write_line, lines_done_, order_.written)) {
       return;
     }
     log_.writes.push_back({cycle_, out_.write_line, out_.write_last});
@@ -443,28 +388,6 @@ class Run {
                    fmt::format("{} line {}, not {}, as number {}", what, line, expected[number], number)});
     }
     return number < expected.size() && line == expected[number];
-  }
-
-  void compare_memory() {
-    for (std::size_t line = 0; line < workload_.memory_after.size() && !failure_; ++line) {
-      const FinalLine& last = workload_.memory_after[line];
-      if (!last.known) {
-        continue;
-      }
-      ++lines_;
-      if (last.bytes.size() != memory_[line].size()) {
-        fail(Failure{FailureKind::kPayload, cycle_,
-                     fmt::format("memory at the end: line {} has {} bytes, not {}", line,
-                                 memory_[line].size(), last.bytes.size())});
-        return;
-      }
-      const auto [want, have] = std::ranges::mismatch(last.bytes, memory_[line]);
-      if (want != last.bytes.end()) {
-        fail(Failure{FailureKind::kPayload, cycle_,
-                     fmt::format("memory at the end: line {}, byte {}: expected {:#x}, got {:#x}", line,
-                                 want - last.bytes.begin(), *want, *have)});
-      }
-    }
   }
 
   /// Applies the fault to what the checkers and the unit see; returns whether a beat is valid.
@@ -551,18 +474,16 @@ class Run {
   std::deque<Fill> fills_;
   std::uint64_t fill_free_ = 0;  ///< first cycle in which the read channel is free
   std::uint64_t fill_beats_ = 0;
-  Random shader_;
-  std::deque<Answer> answers_;
-  std::vector<std::uint32_t> lines_read_;     ///< in the order in which the model's cache asks for them
-  std::vector<std::uint32_t> lines_written_;  ///< likewise
-  std::size_t lines_done_ = 0;                ///< of them
-  std::vector<std::uint8_t> write_bytes_;     ///< of the line that is written
+  Shader shader_;
+  MemoryOrder order_;
+  std::size_t lines_done_ = 0;             ///< of them
+  std::vector<std::uint8_t> write_bytes_;  ///< of the line that is written
   std::uint64_t write_beats_ = 0;
   std::size_t command_ = 0;
   std::size_t beat_ = 0;
   bool offered_ = false;
   std::uint64_t waited_ = 0;  ///< cycles, before it was offered
-  bool waits_done_ = false;  ///< for a clear or a flush
+  bool waits_done_ = false;   ///< for a clear or a flush
   std::size_t written_slots_ = 0;
   std::size_t ahead_ = 0;
   std::deque<std::size_t> outstanding_;  ///< the commands of the beats expected

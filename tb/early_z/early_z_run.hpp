@@ -38,7 +38,7 @@ enum class ZFault : std::uint8_t {
 
 struct ZRunOptions {
   std::uint64_t seed = 1;
-  std::uint64_t latency = 20;  ///< of memory
+  std::uint64_t latency = 20;       ///< of memory
   std::uint64_t late_latency = 20;  ///< of the shader: from the last beat taken to its answer
   bool late_varies = false;         ///< from 1 to that, but in order
   StallProfile idle = StallProfile::kNone;

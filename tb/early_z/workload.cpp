@@ -1,5 +1,7 @@
 #include "early_z/workload.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -34,10 +36,7 @@ class Maker {
       : shape_(shape),
         local_(local),
         random_(seed),
-        cache_({.lines = shape.lines,
-                .ways = shape.ways,
-                .parts = parts(),
-                .late_writes = shape.late_queue},
+        cache_({.lines = shape.lines, .ways = shape.ways, .parts = parts(), .late_writes = shape.late_queue},
                static_cast<std::uint32_t>(shape.memory_tiles * parts())) {
     make_surfaces();
   }
@@ -403,6 +402,48 @@ class Maker {
 
 Workload make_workload(const EarlyZShape& shape, std::uint64_t seed, std::size_t bursts, bool local) {
   return Maker(shape, seed, local).make(bursts);
+}
+
+MemoryOrder memory_order(const Workload& workload) {
+  MemoryOrder order;
+  for (const Command& command : workload.commands) {
+    for (const ZMiss& miss : command.misses.parts()) {
+      if (miss.fetch) {
+        order.read.push_back(miss.line);
+      }
+      if (miss.write_back) {
+        order.written.push_back(miss.victim);
+      }
+    }
+    for (const FlushedLine& flushed : command.flushed) {
+      order.written.push_back(flushed.line);
+    }
+  }
+  return order;
+}
+
+std::optional<Failure> compare_memory(const Workload& workload,
+                                      const std::vector<std::vector<std::uint8_t>>& memory,
+                                      std::uint64_t cycle, std::uint64_t& lines) {
+  for (std::size_t line = 0; line < workload.memory_after.size(); ++line) {
+    const FinalLine& last = workload.memory_after[line];
+    if (!last.known) {
+      continue;
+    }
+    ++lines;
+    if (last.bytes.size() != memory[line].size()) {
+      return Failure{FailureKind::kPayload, cycle,
+                     fmt::format("memory at the end: line {} has {} bytes, not {}", line, memory[line].size(),
+                                 last.bytes.size())};
+    }
+    const auto [want, have] = std::ranges::mismatch(last.bytes, memory[line]);
+    if (want != last.bytes.end()) {
+      return Failure{FailureKind::kPayload, cycle,
+                     fmt::format("memory at the end: line {}, byte {}: expected {:#x}, got {:#x}", line,
+                                 want - last.bytes.begin(), *want, *have)};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace halfspace::tb

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "common/failure.hpp"
 #include "early_z/models.hpp"
 #include "early_z/triangles.hpp"
 #include "halfspace/units/z_cache.hpp"
@@ -15,8 +17,9 @@ enum class CommandKind : std::uint8_t { kBurst, kClear, kFlush };
 /// What a burst of a late draw leaves where a sample passed.
 struct LateWrite {
   bool out = false;
-  std::vector<std::uint32_t> keep;  ///< the shader's answer, by quad; of samples that had not passed, anything
-  std::size_t passed_word = 0;      ///< where one is that had passed
+  std::vector<std::uint32_t>
+      keep;                     ///< the shader's answer, by quad; of samples that had not passed, anything
+  std::size_t passed_word = 0;  ///< where one is that had passed
   std::uint32_t passed_bit = 0;
   int passed = 0;  ///< samples
   int kept = 0;    ///< of them
@@ -39,8 +42,8 @@ struct Command {
   ZMisses misses;
   std::uint8_t touched = 0;
   std::vector<std::uint32_t> lines;  ///< that it touches
-  std::vector<int> fetched;  ///< the shifts by which the lines are coded that are fetched
-  std::vector<int> written;  ///< and written back
+  std::vector<int> fetched;          ///< the shifts by which the lines are coded that are fetched
+  std::vector<int> written;          ///< and written back
   std::vector<std::vector<std::uint32_t>> beats;   ///< as they come
   std::vector<std::vector<std::uint32_t>> tested;  ///< as they must leave
   std::vector<std::uint32_t> update;               ///< what hi_z must be told
@@ -76,5 +79,17 @@ struct Workload {
 /// between them. `local`: draws stay within a few tiles, so that bursts of the same line follow each other.
 [[nodiscard]] Workload make_workload(const EarlyZShape& shape, std::uint64_t seed, std::size_t bursts,
                                      bool local);
+
+/// The lines that the model's cache asks memory for, and those that it writes, in this order.
+struct MemoryOrder {
+  std::vector<std::uint32_t> read;
+  std::vector<std::uint32_t> written;
+};
+[[nodiscard]] MemoryOrder memory_order(const Workload& workload);
+
+/// Compares memory at the end of a run, in cycle `cycle`, with what it must hold; counts the lines that were.
+[[nodiscard]] std::optional<Failure> compare_memory(const Workload& workload,
+                                                    const std::vector<std::vector<std::uint8_t>>& memory,
+                                                    std::uint64_t cycle, std::uint64_t& lines);
 
 }  // namespace halfspace::tb

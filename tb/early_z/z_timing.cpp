@@ -212,8 +212,8 @@ class Contract {
                              : "late writes before a burst: queue full");
   }
 
-  /// Late writes up to number `end`, not before `first` and `second`; gives the cycle after them, or nothing where the
-  /// run ended before.
+  /// Late writes up to number `end`, not before `first` and `second`; gives the cycle after them, or nothing
+  /// where the run ended before.
   std::optional<Cycle> write_late(std::size_t end, Term first, Term second) {
     Cycle order = 0;
     std::size_t together = 0;

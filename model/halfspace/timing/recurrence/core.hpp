@@ -9,7 +9,6 @@ namespace halfspace {
 using HWY_NAMESPACE::NoProbe;
 using HWY_NAMESPACE::NoStalls;
 using HWY_NAMESPACE::RecurrenceCore;
-using HWY_NAMESPACE::RecurrenceMemory;
 using HWY_NAMESPACE::replay;
 using HWY_NAMESPACE::ReplayHooks;
 

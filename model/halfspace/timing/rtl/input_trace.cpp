@@ -41,6 +41,8 @@ void visit(Inputs& in, std::uint8_t flags, Words&& words, Word&& word) {
   if ((flags & kClear) != 0) {
     word(in.clear_first);
     word(in.clear_last);
+    word(in.clear_first_block);
+    word(in.clear_last_block);
   }
   if ((flags & kSelect) != 0) {
     word(in.counter_select);
