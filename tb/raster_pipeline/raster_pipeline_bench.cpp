@@ -252,8 +252,9 @@ class Bench {
     const bool request =
         stage == Stage::kZLookup && reason == stall::kLookupRequest;  // of one part before the last
     const bool hi_z = stage == Stage::kHiZ && reason != stall::kNoInput;
+    const bool late = stage == Stage::kZTest && reason == stall::kTestLate;
     return !(divider && config_.setup.interval == 1) && !(request && config_.z_cache.parts == 1) &&
-           !(hi_z && !config_.hi_z.enabled);
+           !(hi_z && !config_.hi_z.enabled) && !(late && config_.late_z.mode != LateZ::kLate);
   }
 
   void print() const {

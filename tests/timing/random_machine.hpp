@@ -44,7 +44,7 @@ inline Config random_config(Random& random) {
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
   config.hi_z.fifo = mostly_small(random, 4, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
-  config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite, LateZ::kLate, LateZ::kLate});
+  config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite, LateZ::kLate});
   config.late_z.queue = mostly_small(random, 1, 64);
   config.late_z.latency = pick(random, {1, 2, 10, 100, 200, 3000});
   config.late_z.discard = pick(random, {0, kWholeShare / 3, kWholeShare / 2, kWholeShare});
