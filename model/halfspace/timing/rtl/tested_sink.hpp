@@ -77,12 +77,12 @@ class TestedSink {
     if (run_.in.late_valid) {
       std::ranges::fill(run_.in.late_keep, 0);
       const TileMask& kept = answers_.front().kept;
-      for (int bit = 0; bit < TileSize * TileSize; ++bit) {
-        const int x = bit % TileSize;
-        const int y = bit / TileSize;
-        const int quad = y / 2 * (TileSize / 2) + x / 2;
-        const auto at = static_cast<std::size_t>(4 * quad + y % 2 * 2 + x % 2);
-        const std::uint64_t keep = kept.word[static_cast<std::size_t>(bit / 64)] >> (bit % 64) & 1;
+      constexpr std::size_t kSize = TileSize;
+      for (std::size_t bit = 0; bit < kSize * kSize; ++bit) {
+        const std::size_t x = bit % kSize;
+        const std::size_t y = bit / kSize;
+        const std::size_t at = 4 * (y / 2 * (kSize / 2) + x / 2) + y % 2 * 2 + x % 2;
+        const std::uint64_t keep = kept.word[bit / 64] >> (bit % 64) & 1;
         run_.in.late_keep[at / 32] |= static_cast<std::uint32_t>(keep) << (at % 32);
       }
       answers_.pop_front();
