@@ -432,7 +432,8 @@ module z_test
   end else begin : gen_no_late
     assign blocked    = 1'b0;
     assign late_empty = 1'b1;
-    assign {late_part, held, late_line, late_sample, late_codes} = '0;
+    assign {late_part, held, late_line, late_sample} = '0;
+    assign late_codes = '0;
 
     logic unused_late;
     assign unused_late = ^{answer_i, keep_i, late_q};
