@@ -56,6 +56,7 @@ inline Frame hard_frame(Random& random) {
     draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kNdcZMinusOneToOne}) : 0;
     draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kCullBack}) : 0;
     draw.flags |= random.between(0, 7) == 0 ? bits({Flag::kBottomLeftRule}) : 0;
+    draw.flags |= random.between(0, 3) == 0 ? bits({Flag::kShaderDiscards}) : 0;
     if (random.between(0, 7) == 0) {
       draw.flags |= bits({Flag::kPolygonOffset});
       draw.offset_units = static_cast<float>(random.between(-100, 100));
@@ -167,6 +168,9 @@ inline Frame depth_stack(Random& random) {
     draw.depth_func = func;
     if (random.between(0, 3) == 0) {
       draw.flags &= ~bits({Flag::kDepthWrite});
+    }
+    if (random.between(0, 3) == 0) {
+      draw.flags |= bits({Flag::kShaderDiscards});
     }
     if (random.between(0, 7) == 0) {
       draw.flags |= bits({Flag::kPolygonOffset});

@@ -28,10 +28,10 @@ WalkerConfig walker_config(const Config& config);
 
 /// `format` is that of the target's depth surface, none where it has none.
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
+EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
+
 /// What the shaders of late draws discard.
 ShaderDiscard shader_discard(const Config& config);
-
-EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
 
 /// The state of the draw for one triangle, with the bounds that the triangle itself has.
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle);

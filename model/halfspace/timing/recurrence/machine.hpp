@@ -152,10 +152,10 @@ struct RecurrenceMemory {
   Machine<typename TimePolicy::Time, typename TimePolicy::SetupTime> machine;
   std::array<typename TimePolicy::SetupCredits, kSetupFifos> setup_fifos;
   std::array<typename TimePolicy::Credits, kFifos - kSetupFifos> fifos;  ///< the others
-  typename TimePolicy::Table out;  ///< by line of memory: first cycle in which it may be asked for again
-  std::optional<std::uint64_t> hi_z_lag;  ///< where the machine has hi_z
-  typename TimePolicy::Table late;        ///< by late write, in a ring: the cycle from which it may be done
+  typename TimePolicy::Table out;   ///< by line of memory: first cycle in which it may be asked for again
+  typename TimePolicy::Table late;  ///< by late write, in a ring: the cycle from which it may be done
   std::array<std::uint8_t, kLateRing> late_quads{};  ///< of its burst
+  std::optional<std::uint64_t> hi_z_lag;             ///< where the machine has hi_z
   typename TimePolicy::Table
       retired;  ///< where it has: by job, in a ring, the cycle in which hi_z can see it
 };
