@@ -28,7 +28,7 @@ module block_walker
   input  depth_equation_t     equation_i,
   input  draw_state_t         state_i,
 
-  // What early_z keeps of each triangle: written in the cycle after it was taken.
+  // What early_z, or hi_z, keeps of each triangle: written in the cycle after it was taken.
   output logic                slot_write_o,
   output logic [SlotBits-1:0] slot_o,
   output depth_equation_t     slot_equation_o,

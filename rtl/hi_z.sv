@@ -6,9 +6,13 @@
 // that were applied in the cycle in which it is taken, or before, and it is taken when these are all that it must see. So
 // an application has its word ready for the block that is taken with it, and for the application after it.
 //
+// What early_z keeps of a triangle gets its slot here, when the first block of the triangle leaves: so a triangle of which
+// nothing is left holds none, however many of them go by while a burst waits for memory.
+//
 // cycle of a job  | 0: read the word       | 1: put the bounds in, write it
 // cycle of a block | 0: read the triangle's | 1: number the block, read its word | 2: decode it, look for jobs in flight
-//                  | 3: compare, count what is left | 4: in flight, or rejected  | 5: into the FIFO
+//                  | 3: compare, count what is left | 4: in flight, or rejected; gives a slot, and reads what to keep
+//                  | 5: into the FIFO, the triangle into its slot
 
 module hi_z
   import raster_pkg::*;
@@ -31,11 +35,17 @@ module hi_z
   input  logic                 clk_i,
   input  logic                 rst_ni,
 
-  // block_walker: what it keeps of each triangle, at least two cycles before its first block can be taken.
+  // block_walker: each triangle, at least two cycles before its first block can be taken.
   input  logic                 slot_write_i,
   input  logic [SlotBits-1:0]  slot_i,
   input  depth_equation_t      slot_equation_i,
   input  draw_state_t          slot_state_i,
+
+  // What early_z keeps of each triangle that has a block: written before the block is visible.
+  output logic                 slot_write_o,
+  output logic [SlotBits-1:0]  slot_o,
+  output depth_equation_t      slot_equation_o,
+  output draw_state_t          slot_state_o,
 
   input  logic                 block_valid_i,
   output logic                 block_ready_o,
@@ -147,19 +157,21 @@ module hi_z
     blocks_x:    slot_state_i.blocks_x
   };
 
-  logic unused_fields;
-  assign unused_fields = ^{slot_state_i, slot_equation_i};
+  // Of block_walker's slots so many are in use: one for each block of its FIFO, which has 8 at most, for each block that
+  // is here in cycle 1 to 4, and for the triangle that is written.
+  localparam int unsigned Triangles = 16;
+  typedef logic [$clog2(Triangles)-1:0] place_t;
 
   sync_ram #(
     .Width ($bits(triangle_t)),
-    .Depth (2 ** SlotBits)
+    .Depth (Triangles)
   ) u_triangles (
     .clk_i           (clk_i),
     .write_i         (slot_write_i),
-    .write_address_i (slot_i),
+    .write_address_i (place_t'(slot_i)),
     .data_i          (write_triangle),
     .read_i          (take),
-    .read_address_i  (block_i.slot),
+    .read_address_i  (place_t'(block_i.slot)),
     .data_o          (triangle)
   );
 
@@ -544,6 +556,35 @@ module hi_z
 
   code_t clear_code4_q;
 
+  // The slot of the triangle in cycle 4: a new one with its first block that leaves. The blocks of a triangle come one
+  // after the other.
+  logic                walked_q;  // a block before this one was in cycle 4
+  logic [SlotBits-1:0] walked_slot_q;
+  logic                given_q;   // its triangle has a slot
+  logic [SlotBits-1:0] given_slot_q, slot4;
+  logic                given4, first4;
+
+  assign given4 = walked_q & given_q && walked_slot_q == job_q[4].slot;
+  assign first4 = leaves4 & ~given4;
+  assign slot4  = given_slot_q + SlotBits'(first4);
+
+  always_ff @(posedge clk_i) begin
+    if (!frame_ni) begin
+      walked_q     <= 1'b0;
+      given_slot_q <= '1;
+    end else if (valid_q[4]) begin
+      walked_q     <= 1'b1;
+      given_slot_q <= slot4;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (valid_q[4]) begin
+      walked_slot_q <= job_q[4].slot;
+      given_q       <= leaves4 | given4;
+    end
+  end
+
   always_ff @(posedge clk_i) begin
     if (valid_q[3]) begin
       job_q[4]       <= job_q[3];
@@ -555,9 +596,36 @@ module hi_z
       clear_code4_q  <= test3_q.clear_code;
     end
     if (valid_q[4]) begin
-      job_q[5] <= job_q[4];
+      job_q[5]      <= job_q[4];
+      job_q[5].slot <= slot4;
     end
   end
+
+  logic slot_write_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      slot_write_q <= 1'b0;
+    end else begin
+      slot_write_q <= first4;
+    end
+  end
+
+  sync_ram #(
+    .Width ($bits(depth_equation_t) + $bits(draw_state_t)),
+    .Depth (Triangles)
+  ) u_kept (
+    .clk_i           (clk_i),
+    .write_i         (slot_write_i),
+    .write_address_i (place_t'(slot_i)),
+    .data_i          ({slot_equation_i, slot_state_i}),
+    .read_i          (first4),
+    .read_address_i  (place_t'(job_q[4].slot)),
+    .data_o          ({slot_equation_o, slot_state_o})
+  );
+
+  assign slot_write_o = slot_write_q;
+  assign slot_o       = job_q[5].slot;
 
   assign new_flight_valid = leaves4;
   assign new_flight       = '{number: number4_q, tiles: left4, clear_code: clear_code4_q};
@@ -610,6 +678,25 @@ module hi_z
   assign idle_o     = blocks_q == '0 & ~(drain_i & flight_valid);
 
 `ifndef SYNTHESIS
+  logic [Triangles-1:0][SlotBits-1:0] written_q;
+  logic [SlotBits-1:0] tested, kept, leaving;
+
+  assign tested  = written_q[place_t'(block_i.slot)];
+  assign leaving = job_q[4].slot;
+  assign kept    = written_q[place_t'(leaving)];
+
+  always_ff @(posedge clk_i) begin
+    if (slot_write_i) begin
+      written_q[place_t'(slot_i)] <= slot_i;
+    end
+  end
+
+  TestsAnotherTriangle: assert property (@(posedge clk_i) disable iff (!rst_ni)
+      take |-> tested == block_i.slot)
+  else $error("a block is taken, and its slot has another triangle");
+  KeepsAnotherTriangle: assert property (@(posedge clk_i) disable iff (!rst_ni)
+      first4 |-> kept == leaving)
+  else $error("a block leaves, and its slot has another triangle");
   JobHasLeft: assert property (@(posedge clk_i) disable iff (!frame_ni)
       apply |-> flight_valid && unapplied != '0)
   else $error("a job that has not left is applied");

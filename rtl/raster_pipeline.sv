@@ -171,6 +171,12 @@ module raster_pipeline
     .idle_o           (block_idle)
   );
 
+  // What early_z keeps.
+  logic                kept_write;
+  logic [SlotBits-1:0] kept_slot;
+  depth_equation_t     kept_equation;
+  draw_state_t         kept_state;
+
   logic         block_valid, block_ready;
   block_job_t   block_job;
   logic         job_taken, job_burst, update_valid;
@@ -195,6 +201,10 @@ module raster_pipeline
       .slot_i          (slot),
       .slot_equation_i (slot_equation),
       .slot_state_i    (slot_state),
+      .slot_write_o    (kept_write),
+      .slot_o          (kept_slot),
+      .slot_equation_o (kept_equation),
+      .slot_state_o    (kept_state),
       .block_valid_i   (walked_valid),
       .block_ready_o   (walked_ready),
       .block_i         (walked_job),
@@ -215,6 +225,10 @@ module raster_pipeline
       .idle_o          (hi_z_idle)
     );
   end else begin : gen_no_hi_z
+    assign kept_write    = slot_write;
+    assign kept_slot     = slot;
+    assign kept_equation = slot_equation;
+    assign kept_state    = slot_state;
     assign block_valid   = walked_valid;
     assign walked_ready  = block_ready;
     assign block_job     = walked_job;
@@ -307,10 +321,10 @@ module raster_pipeline
   ) u_early_z (
     .clk_i             (clk_i),
     .rst_ni            (rst_ni),
-    .slot_write_i      (slot_write),
-    .slot_i            (slot),
-    .slot_equation_i   (slot_equation),
-    .slot_state_i      (slot_state),
+    .slot_write_i      (kept_write),
+    .slot_i            (kept_slot),
+    .slot_equation_i   (kept_equation),
+    .slot_state_i      (kept_state),
     .beat_valid_i      (beat_valid),
     .beat_ready_o      (beat_ready),
     .beat_i            (beat),

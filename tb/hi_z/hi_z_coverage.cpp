@@ -68,7 +68,8 @@ HiZCoverage::HiZCoverage(const HiZShape& shape) {
     bins_.add(fmt::format("job of {} parts", parts));
   }
   for (const char* name :
-       {"job without bounds", "waits for updates", "waits for a slot", "waits for updates and a slot",
+       {"triangle of which nothing is left", "triangle of which several blocks leave",
+        "triangle whose first block is rejected, and a later one leaves", "last slot", "job without bounds", "waits for updates", "waits for a slot", "waits for updates and a slot",
         "taken after a wait", "clear with jobs to apply", "clear with all jobs applied", "clear of one block",
         "clear of several blocks", "clear after a block that was rejected",
         "end of a frame with jobs not applied", "end of a frame", "reset with a block under way",

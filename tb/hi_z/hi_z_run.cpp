@@ -36,7 +36,7 @@ class HiZRun {
         options_(options),
         coverage_(coverage),
         scoreboard_(field_slots<BlockJob>(shape.widths)),
-        timing_(shape, coverage),
+        timing_(shape, workload, coverage),
         idle_(options.idle, 0, options.seed ^ kIdleSeed),
         stall_(options.stall, 0, options.seed ^ kStallSeed),
         random_(options.seed ^ kBackSeed) {
@@ -376,6 +376,15 @@ class HiZRun {
           stalled_ = !stalled_;
         }
         return valid;
+      case HiZFault::kOtherSlot:
+        out_.slot ^= out_.slot_write && scoreboard_.received() >= options_.fault_packet ? 1 : 0;
+        return valid;
+      case HiZFault::kOtherTriangle:
+        out_.equation[0] ^= out_.slot_write && scoreboard_.received() >= options_.fault_packet ? 1u : 0u;
+        return valid;
+      case HiZFault::kLoseSlot:
+        out_.slot_write = out_.slot_write && scoreboard_.received() < options_.fault_packet;
+        return valid;
       default:
         return valid;
     }
@@ -443,12 +452,15 @@ class HiZRun {
 }  // namespace
 
 std::optional<HiZFault> hi_z_fault_by_name(const std::string& name) {
-  static constexpr std::array<std::pair<const char*, HiZFault>, 12> kFaults = {
+  static constexpr std::array<std::pair<const char*, HiZFault>, 15> kFaults = {
       {{"none", HiZFault::kNone},
        {"flip-tile", HiZFault::kFlipTile},
        {"drop", HiZFault::kDrop},
        {"late", HiZFault::kLate},
        {"change-payload", HiZFault::kChangePayload},
+       {"other-slot", HiZFault::kOtherSlot},
+       {"other-triangle", HiZFault::kOtherTriangle},
+       {"lose-slot", HiZFault::kLoseSlot},
        {"flip-update", HiZFault::kFlipUpdate},
        {"flip-kind", HiZFault::kFlipKind},
        {"lose-update", HiZFault::kLoseUpdate},

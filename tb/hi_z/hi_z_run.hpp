@@ -20,6 +20,9 @@ enum class HiZFault : std::uint8_t {
   kDrop,           ///< a block swallowed
   kLate,           ///< a block one cycle late
   kChangePayload,  ///< another payload in the second cycle of a stall
+  kOtherSlot,      ///< a triangle's slot has another number
+  kOtherTriangle,  ///< another depth equation in it
+  kLoseSlot,       ///< no triangle gets one, from a block on
   kFlipUpdate,     ///< other bounds come back, from a job on
   kFlipKind,       ///< a job with a burst is said to have none
   kLoseUpdate,     ///< no bounds come back any more, from a job on

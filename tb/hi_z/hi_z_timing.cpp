@@ -12,6 +12,7 @@ namespace halfspace::tb {
 namespace {
 
 constexpr std::uint64_t kRejectLatency = 4;       // a block that is rejected is in the unit so long
+constexpr std::uint64_t kSlotLatency = 5;         // to the triangle's slot
 constexpr std::int64_t kUnknown = kHiZDepth - 1;  // blocks of which it is not known yet whether they leave
 constexpr std::size_t kRemembered = 4;
 constexpr std::uint8_t kBusy = 0;
@@ -61,6 +62,9 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
     return timing(fmt::format("idle is {:d}, with {} blocks in it and {} jobs not applied it should be {:d}",
                               out.idle, blocks_in_, jobs_.size() - applied_, idle));
   }
+  if (std::optional<Failure> failure = compare_slot(cycle, out)) {
+    return failure;
+  }
   if (command != nullptr && !ready) {
     coverage_.hit(!seen ? (slot ? "waits for updates" : "waits for updates and a slot") : "waits for a slot");
     waited_ = true;
@@ -84,6 +88,29 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
   return std::nullopt;
 }
 
+std::optional<Failure> HiZTiming::compare_slot(std::uint64_t cycle, const HiZOutputs& out) {
+  const bool due = !kept_at_.empty() && kept_at_.front().cycle == cycle;
+  if (out.slot_write != due) {
+    return Failure{FailureKind::kTiming, cycle,
+                   fmt::format("slot write is {:d}, it should be {:d}", out.slot_write, due)};
+  }
+  if (!due) {
+    return std::nullopt;
+  }
+  const Kept kept = kept_at_.front();
+  kept_at_.pop_front();
+  if (out.slot != kept.slot) {
+    return Failure{FailureKind::kPayload, cycle,
+                   fmt::format("slot {} is written, it should be slot {}", out.slot, kept.slot)};
+  }
+  const HiZTriangleWords& triangle = workload_.triangles[kept.triangle];
+  if (out.equation != triangle.equation || out.state != triangle.state) {
+    return Failure{FailureKind::kPayload, cycle,
+                   fmt::format("slot {}: not the equation and state of triangle {}", kept.slot, kept.triangle)};
+  }
+  return std::nullopt;
+}
+
 void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applied_with) {
   static constexpr std::array<const char*, 8> kFunctions = {"NEVER",   "LESS",     "EQUAL",  "LEQUAL",
                                                             "GREATER", "NOTEQUAL", "GEQUAL", "ALWAYS"};
@@ -95,7 +122,11 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
   } else {
     visible_at_.push_back(cycle + kHiZLatency);
     ++passed_;
+    if (command.gets_slot) {
+      kept_at_.push_back({cycle + kSlotLatency, command.triangle, command.slot});
+    }
   }
+  cover_slot(command, rejected);
   // Coverage.
   const char* const outcome = rejected ? "all" : command.rejected != 0 ? "some" : "none";
   if (!command.state.test) {
@@ -154,6 +185,28 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
   jobs_before_.pop_front();
   passed_before_.push_back(passed_);
   passed_before_.pop_front();
+}
+
+void HiZTiming::cover_slot(const HiZCommand& command, bool rejected) {
+  if (command.triangle != triangle_) {
+    if (triangle_blocks_ != 0 && triangle_left_ == 0) {
+      coverage_.hit("triangle of which nothing is left");
+    }
+    triangle_ = command.triangle;
+    triangle_blocks_ = triangle_left_ = 0;
+  }
+  if (!rejected) {
+    if (triangle_left_ == 1) {
+      coverage_.hit("triangle of which several blocks leave");
+    } else if (triangle_left_ == 0 && triangle_blocks_ != 0) {
+      coverage_.hit("triangle whose first block is rejected, and a later one leaves");
+    }
+    if (command.gets_slot && command.slot == std::numeric_limits<std::uint8_t>::max()) {
+      coverage_.hit("last slot");
+    }
+    ++triangle_left_;
+  }
+  ++triangle_blocks_;
 }
 
 /// What becomes of the word, and how close it is to what is done before.
@@ -231,6 +284,8 @@ void HiZTiming::clear() {
   blocks_in_ = 0;
   rejected_at_.clear();
   visible_at_.clear();
+  kept_at_.clear();
+  triangle_blocks_ = triangle_left_ = 0;
   blocks_.clear();
   applies_.clear();
 }

@@ -4,7 +4,8 @@
 ///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), leave(n + 3 - fifo) + 1)   n: of blocks up to
 ///     k-4 visible(n) = h(k) + 6
 ///
-/// A block that is rejected is in the unit until h(k) + 4.
+/// A block that is rejected is in the unit until h(k) + 4. A triangle is written to its slot 5 cycles after the
+/// h(k) of its first block that leaves.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,10 @@ namespace halfspace::tb {
 
 class HiZTiming {
  public:
-  HiZTiming(const HiZShape& shape, HiZCoverage& coverage) : shape_(shape), coverage_(coverage) { clear(); }
+  HiZTiming(const HiZShape& shape, const HiZWorkload& workload, HiZCoverage& coverage)
+      : shape_(shape), workload_(workload), coverage_(coverage) {
+    clear();
+  }
 
   /// A job can be applied from cycle `at` on. In their order.
   void ready(std::uint64_t at) { ready_at_.push_back(at); }
@@ -50,16 +54,27 @@ class HiZTiming {
   };
   enum class State : std::uint8_t { kUnknown, kCleared, kStored };
 
+  /// A triangle that gets a slot.
+  struct Kept {
+    std::uint64_t cycle = 0;
+    std::size_t triangle = 0;
+    std::uint8_t slot = 0;
+  };
+
+  std::optional<Failure> compare_slot(std::uint64_t cycle, const HiZOutputs& out);
   void apply(std::uint64_t cycle);
   void take(std::uint64_t cycle, const HiZCommand& command, bool applied_with);
+  void cover_slot(const HiZCommand& command, bool rejected);
 
   HiZShape shape_;
+  const HiZWorkload& workload_;
   HiZCoverage& coverage_;
   bool was_reset_ = false;
   bool waited_ = false;
   int blocks_in_ = 0;
   std::deque<std::uint64_t> rejected_at_;
   std::deque<std::uint64_t> visible_at_;
+  std::deque<Kept> kept_at_;
   std::uint64_t left_ = 0;
   std::vector<Job> jobs_;
   std::deque<std::uint64_t> ready_at_;  ///< of all jobs of the frame
@@ -73,6 +88,9 @@ class HiZTiming {
     std::uint64_t cycle = std::numeric_limits<std::uint64_t>::max() - 1000;
     std::uint32_t number = 0;
   };
+  std::size_t triangle_ = std::numeric_limits<std::size_t>::max();  ///< of the last block
+  std::uint64_t triangle_blocks_ = 0;
+  std::uint64_t triangle_left_ = 0;  ///< of these
   std::vector<HiZWord> words_;
   std::vector<State> states_;
   std::deque<Event> blocks_;  ///< the last ones, the newest first

@@ -60,6 +60,10 @@ struct HiZOutputs {
   bool left_valid = false;
   std::vector<std::uint32_t> left;
   bool clear_done = false;
+  bool slot_write = false;
+  std::uint8_t slot = 0;
+  std::vector<std::uint32_t> equation;
+  std::vector<std::uint32_t> state;
   std::uint8_t activity = 0;
   bool idle = false;
 };

@@ -40,6 +40,10 @@ class VerilatedHiZ final : public HiZDut {
     out.left_valid = m.block_valid_o != 0;
     get_port(m.block_o, out.left);
     out.clear_done = m.clear_done_o != 0;
+    out.slot_write = m.slot_write_o != 0;
+    out.slot = m.slot_o;
+    get_port(m.slot_equation_o, out.equation);
+    get_port(m.slot_state_o, out.state);
     out.activity = m.activity_o;
     out.idle = m.idle_o != 0;
   }

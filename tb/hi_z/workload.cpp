@@ -208,6 +208,9 @@ class HiZMaker {
     const HiZ::Verdict verdict = hi_z_.decide(block, triangle.depth, state, surface.place);
     command.rejected = verdict.rejected;
     command.sure = verdict.sure;
+    command.gets_slot = verdict.first;
+    command.slot = verdict.slot;
+    block.slot = verdict.slot;
     block.tiles &= ~verdict.rejected;
     block.sure = verdict.sure;
     command.left.resize(command.words.size());

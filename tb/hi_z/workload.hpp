@@ -33,6 +33,8 @@ struct HiZCommand {
   DepthMoves moves;
   std::uint32_t clear_code = 0;
   bool plane = false;                ///< known
+  bool gets_slot = false;            ///< the triangle: the block is its first that leaves
+  std::uint8_t slot = 0;             ///< with which it leaves
   std::vector<std::uint32_t> words;  ///< as it comes
   std::vector<std::uint32_t> left;   ///< as it must leave, where it has a tile left
   std::vector<HiZJob> jobs;
@@ -47,7 +49,7 @@ struct HiZTriangleWords {
 };
 
 struct HiZWorkload {
-  std::vector<HiZTriangleWords> triangles;  ///< the slot is the index, modulo 256
+  std::vector<HiZTriangleWords> triangles;  ///< the slot that they come with is the index, modulo 256
   std::vector<HiZCommand> commands;
 };
 

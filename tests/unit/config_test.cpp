@@ -173,3 +173,19 @@ TEST_CASE("config: a file is refused by its name too, and one that was written i
   CHECK(config_hash(config) != config_hash({}));
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("config: the longest FIFOs hold fewer triangles than there are slots for them") {
+  const auto longest = [](const std::string& key) {
+    int most = 0;
+    for (int places = 2; places < 256; ++places) {
+      most = error_of({(key + "=" + std::to_string(places)).c_str()}).empty() ? places : most;
+    }
+    return most;
+  };
+  const int behind = longest("tile_walker.fifo") + longest("edge_evaluator.fifo") +
+                     longest("quad_generator.fifo") + longest("early_z.pending");
+  CHECK(behind + longest("hi_z.fifo") < 256);
+  CHECK(behind + longest("block_walker.fifo") < 256);
+  // hi_z keeps 16: also of the blocks in its first cycles, and the triangle that is written.
+  CHECK(longest("block_walker.fifo") + 4 + 1 <= 16);
+}

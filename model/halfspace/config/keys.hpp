@@ -23,8 +23,8 @@
 /// unit     empty where there is none
 /// changes  function: may change packets; time: only the cycles in which they move
 ///
-/// The smallest FIFO has an output register and a slot; the largest keeps the triangles behind the walker
-/// within the 256 contexts that a tile job can name.
+/// The smallest FIFO has an output register and a slot; the largest keep the triangles behind hi_z, or behind
+/// block_walker, within the 256 slots that a tile job can name.
 #define HALFSPACE_KEYS(BEGIN, END, KEY, MODULE, PACKAGE)                                                     \
   BEGIN(raster)                                                                                              \
     PACKAGE(raster., sub_pixel_bits, int, 8, range(4, 8), "bits", function,                                  \

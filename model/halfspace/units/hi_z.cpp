@@ -139,6 +139,7 @@ HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, c
   }
   const DepthMoves moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
   std::uint64_t left = block.tiles & ~verdict.rejected;
+  give_slot(block, left != 0, verdict);
   jobs_ += static_cast<std::uint64_t>(std::popcount(left));
   for (; left != 0; left &= left - 1) {
     const auto tile = static_cast<std::size_t>(std::countr_zero(left));
@@ -151,6 +152,15 @@ HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, c
   std::shift_left(jobs_before_.begin(), jobs_before_.end(), 1);
   jobs_before_.back() = jobs_;
   return verdict;
+}
+
+void HiZ::give_slot(const BlockJob& block, bool leaves, Verdict& verdict) {
+  slot_given_ = slot_given_ && walked_ == block.slot;
+  walked_ = block.slot;
+  verdict.first = leaves && !slot_given_;
+  slot_ = static_cast<std::uint8_t>(slot_ + (verdict.first ? 1 : 0));
+  slot_given_ |= leaves;
+  verdict.slot = slot_;
 }
 
 void HiZ::see(std::uint64_t jobs) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 
 #include "halfspace/units/hi_z_bounds.hpp"
 #include "halfspace/units/hi_z_plane.hpp"
@@ -114,10 +115,13 @@ class HiZ {
   [[nodiscard]] std::uint64_t must_retire() const;
 
   /// The tiles of the next block in which no sample can pass, and those in which every one passes and writes:
-  /// masks as in BlockJob. `state` is the draw's; `surface` is looked at where it tests depth.
+  /// masks as in BlockJob. Where a tile is left: the slot that the triangle has from here on, and whether the
+  /// block is its first. `state` is the draw's; `surface` is looked at where it tests depth.
   struct Verdict {
     std::uint64_t rejected = 0;
     std::uint64_t sure = 0;
+    std::uint8_t slot = 0;
+    bool first = false;
   };
   Verdict decide(const BlockJob& block, const DepthEquation& equation, const EarlyZState& state,
                  const HiZSurface& surface);
@@ -141,6 +145,8 @@ class HiZ {
   /// What the word of a block is; untouched memory says that nothing is known.
   enum class WordState : std::uint8_t { kUnknown, kCleared, kStored };
 
+  /// Gives the block's triangle a slot, if it has none and the block leaves.
+  void give_slot(const BlockJob& block, bool leaves, Verdict& verdict);
   [[nodiscard]] HiZWord word(std::uint32_t block) const;
   [[nodiscard]] CodeBounds bounds(const HiZWord& word, std::size_t tile) const;
 
@@ -157,6 +163,9 @@ class HiZ {
   std::array<std::uint64_t, kHiZDepth> jobs_before_{};  ///< of the blocks under way, the oldest first
   std::deque<Flight> flights_;                          ///< from job seen_ on
   std::deque<HiZUpdate> retired_;                       ///< of these the first
+  std::optional<std::uint8_t> walked_;                  ///< the slot that the last block came with
+  bool slot_given_ = false;                             ///< to its triangle
+  std::uint8_t slot_ = 255;                             ///< the last that was given
 };
 
 }  // namespace halfspace

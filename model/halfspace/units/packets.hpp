@@ -105,7 +105,7 @@ struct SetupTriangle {
 /// block_walker -> tile_walker: a block that a triangle may touch.
 struct BlockJob {
   std::uint8_t slot = 0;  ///< where the triangle's depth equation and draw state are kept: one more, modulo
-                          ///< 256, for each triangle that has a block job
+                          ///< 256, for each triangle that has a block job; hi_z counts those of its own
   std::uint16_t block_x = 0;  ///< in blocks
   std::uint16_t block_y = 0;
   std::array<std::int64_t, 3> e{};  ///< E at the centre of the block's top left pixel, fill rule folded in

@@ -25,7 +25,7 @@ class BlockWalker {
     Sink<TileSize, Emit> sink{.config = config_, .triangle = triangle, .draw = draw, .emit = emit};
     block_walker<TileSize>(triangle, config_, slot_, sink);
     // A slot is taken again only after 256 triangles with jobs, so that none is while its triangle is under
-    // way.
+    // way to hi_z, or where the machine has none, to early_z.
     slot_ = static_cast<std::uint8_t>(slot_ + (sink.emitted ? 1 : 0));
     return sink.empty;
   }

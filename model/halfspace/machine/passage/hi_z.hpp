@@ -21,6 +21,7 @@ inline void hi_z(HiZ& unit, BlockJob& block, const DepthEquation& equation, cons
   if (draw.record_walk) {
     draw.observer->hi_z_decided(block, verdict.rejected);
   }
+  block.slot = verdict.slot;
   block.tiles &= ~verdict.rejected;
   block.sure = verdict.sure;
 }
