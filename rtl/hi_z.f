@@ -3,6 +3,7 @@ sync_ram.sv
 memory_fifo.sv
 hi_z_states.sv
 hi_z_flights.sv
+hi_z_span.sv
 hi_z_word.sv
 hi_z_memory.sv
 hi_z_plane.sv

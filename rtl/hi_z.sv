@@ -3,13 +3,13 @@
 //
 // A pipeline in order. In a cycle it takes at most one block, which is decided three cycles later, and applies at most one
 // job: what is then stored in the tile of the oldest job in flight goes into the word of its block. A block sees the jobs
-// that were applied in the cycle in which it is taken, or before, and it is taken when these are all that it must see. So
-// an application has its word ready for the block that is taken with it, and for the application after it.
+// that were applied before the cycle in which it is taken, and it is taken when these are all that it must see. What the
+// next block must see may be applied in the cycle in which this one is taken.
 //
 // What early_z keeps of a triangle gets its slot here, when the first block of the triangle leaves: so a triangle of which
 // nothing is left holds none, however many of them go by while a burst waits for memory.
 //
-// cycle of a job  | 0: read the word       | 1: put the bounds in, write it
+// cycle of a job  | 0 to 3: its word is read, changed and written (hi_z_memory)
 // cycle of a block | 0: read the triangle's | 1: number the block, read its word | 2: decode it, look for jobs in flight
 //                  | 3: compare, count what is left | 4: in flight, or rejected; gives a slot, and reads what to keep
 //                  | 5: into the FIFO, the triangle into its slot
@@ -80,11 +80,10 @@ module hi_z
 );
 
   localparam int unsigned Entries = BlockTiles * ZParts;
-  localparam int unsigned WordShiftBits = 5;
-  // Jobs that have left and are not applied: those that no block sees yet, and those of the blocks under way.
-  localparam int unsigned Jobs = Lag + 5 * BlockTiles;
+  // Jobs that have left and are not applied: those that no block sees yet, and those of the blocks that do not count yet.
+  localparam int unsigned Jobs = Lag + 6 * BlockTiles;
   // Blocks that have such jobs.
-  localparam int unsigned Flights = Lag + 8;
+  localparam int unsigned Flights = Lag + 10;
 
   if (Entries > 64) begin : gen_illegal_entries
     $error("a block has more than 64 parts of tiles");
@@ -100,7 +99,6 @@ module hi_z
   typedef logic [BlockBits-1:0] number_t;
   typedef logic [FuncBits-1:0] func_t;
   typedef logic [CodeBits-1:0] code_t;
-  typedef logic [Bits-1:0] bound_t;
 
   // Nothing of a frame outlives it; what is on its way to tile_walker has left.
   logic frame_ni;
@@ -243,8 +241,8 @@ module hi_z
     end
   end
 
-  // How many jobs the next block must see that are not applied. It does not count those of the three blocks before it:
-  // these wait here, the oldest first, until as many blocks have been taken after them.
+  // How many jobs the next block must see that are not applied. It does not count those of the last four blocks: these
+  // wait here, the oldest first, until as many blocks have been taken after them.
   localparam int unsigned CountBits = $clog2(Jobs + 1) + 2;
   localparam int unsigned LeftBits = $clog2(BlockTiles + 1);
 
@@ -255,26 +253,26 @@ module hi_z
 
   slots_t      blocks_q;           // in the unit
   count_t      due_q, due;
-  left_t [2:0] waiting_q, waiting_d;
+  left_t [3:0] waiting_q, waiting_d;
   left_t       left_count;         // of the block in cycle 3
   logic [5:1]  valid_q;            // bit i: a block is in its cycle i
   logic        job_ready, seen, credit;
 
-  assign due       = due_q + (valid_q[1] ? count_t'({1'b0, waiting_q[0]}) : '0);
+  assign seen      = due_q <= count_t'(0);
+  assign due       = due_q + (take ? count_t'({1'b0, waiting_q[0]}) : '0); // of the block after that of this cycle
   assign job_ready = kind_valid & (~kind_burst | update_valid);
   assign apply     = job_ready & (due > count_t'(0) | (drain_i & blocks_q == '0));
-  assign seen      = due <= count_t'(0) || (due == count_t'(1) && job_ready);
 
   assign block_ready_o = credit & seen;
   assign take          = block_valid_i & block_ready_o;
 
   always_comb begin
     waiting_d = waiting_q;
-    if (valid_q[1]) begin
-      waiting_d = {left_t'(0), waiting_q[2:1]};
+    if (take) begin
+      waiting_d = {left_t'(0), waiting_q[3:1]};
     end
     if (valid_q[3]) begin
-      waiting_d[2'd2-2'(valid_q[1])-2'(valid_q[2])] = left_count;
+      waiting_d[2'd3-2'(take)-2'(valid_q[1])-2'(valid_q[2])] = left_count;
     end
   end
 
@@ -289,23 +287,27 @@ module hi_z
     end
   end
 
-  // A job in its cycle 1.
-  logic    apply_q, apply_last_q;
-  tiles_t  apply_pick_q;
-  number_t number1, number2_q;
+  // A job in its cycles 1 and 2.
+  logic [2:1] apply_q, apply_last_q;
+  tiles_t     apply_pick_q [1:2];
+  number_t    number1, number2_q;
 
   always_ff @(posedge clk_i) begin
     if (!frame_ni) begin
-      apply_q <= 1'b0;
+      apply_q <= '0;
     end else begin
-      apply_q <= apply;
+      apply_q <= {apply_q[1], apply};
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (apply) begin
-      apply_pick_q <= pick;
-      apply_last_q <= flight_last;
+      apply_pick_q[1] <= pick;
+      apply_last_q[1] <= flight_last;
+    end
+    if (apply_q[1]) begin
+      apply_pick_q[2] <= apply_pick_q[1];
+      apply_last_q[2] <= apply_last_q[1];
     end
   end
 
@@ -397,9 +399,7 @@ module hi_z
   end
 
   // The words: for jobs, and for blocks in their cycle 2.
-  code_t                         base;
-  logic [WordShiftBits-1:0]      shift;
-  logic [Entries-1:0] [Bits-1:0] least, most;
+  logic [BlockTiles-1:0][CodeBits-1:0] least, most;
 
   hi_z_memory #(
     .Bits         (Bits),
@@ -419,8 +419,6 @@ module hi_z
     .read_number_i      (number1),
     .number_i           (number2_q),
     .clear_code_i       (test2_q.clear_code),
-    .base_o             (base),
-    .shift_o            (shift),
     .least_o            (least),
     .most_o             (most),
     .clear_i            (clear_i),
@@ -429,8 +427,7 @@ module hi_z
     .clear_done_o       (clear_done_o)
   );
 
-  // Cycle 2: the bounds of each tile as codes. Of its parts only the lowest and the highest step count. A function looks
-  // at a bound, or at the code after it.
+  // Cycle 2: a function looks at a bound of each tile, or at the code after it.
   logic [BlockTiles-1:0][CodeBits:0] upper, lower;
   logic                              after_upper, after_lower;
 
@@ -440,19 +437,8 @@ module hi_z
   typedef logic [CodeBits:0] wide_code_t;
 
   for (genvar i = 0; i < BlockTiles; i++) begin : gen_bounds
-    bound_t first, last;
-    always_comb begin
-      first = least[i*ZParts];
-      last  = most[i*ZParts];
-      for (int unsigned part = 1; part < ZParts; part++) begin
-        first = least[i*ZParts+part] < first ? least[i*ZParts+part] : first;
-        last  = most[i*ZParts+part] > last ? most[i*ZParts+part] : last;
-      end
-    end
-    assign lower[i] = {1'b0, base} + (wide_code_t'(first) << shift) + wide_code_t'(after_lower);
-    assign upper[i] = {1'b0, base}
-                      + ((wide_code_t'(last) << shift) | ~(wide_code_t'('1) << shift))
-                      + wide_code_t'(after_upper);
+    assign lower[i] = wide_code_t'(least[i]) + wide_code_t'(after_lower);
+    assign upper[i] = wide_code_t'(most[i]) + wide_code_t'(after_upper);
   end
 
   // Jobs in flight in the same block: those in u_flights, and those of the blocks in cycle 4 of this cycle and the next.
@@ -470,9 +456,9 @@ module hi_z
     .tiles_i   (left4),
     .up_i      (up4_q),
     .down_i    (down4_q),
-    .applied_i (apply_q),
-    .pick_i    (apply_pick_q),
-    .last_i    (apply_last_q),
+    .applied_i (apply_q[2]),
+    .pick_i    (apply_pick_q[2]),
+    .last_i    (apply_last_q[2]),
     .search_i  (number2_q),
     .up_o      (found_up),
     .down_o    (found_down)
@@ -637,14 +623,14 @@ module hi_z
   logic   pop;
 
   assign pop    = block_valid_o & block_ready_i;
-  assign held   = held_q + slots_t'({1'b0, valid_q[1] & (|waiting_q[0])});
+  assign held   = held_q + slots_t'({1'b0, |waiting_q[0]});
   assign credit = held <= slots_t'(FifoDepth - 4);
 
   always_ff @(posedge clk_i) begin
     if (!frame_ni || clear_i) begin
       held_q <= '0;
     end else begin
-      held_q <= held - slots_t'({1'b0, pop});
+      held_q <= (take ? held : held_q) - slots_t'({1'b0, pop});
     end
   end
 
@@ -675,7 +661,7 @@ module hi_z
   assign activity_o = take             ? HiZBusy
                       : !block_valid_i ? HiZNoBlock
                       : !seen          ? HiZNoUpdate : HiZNoCredit;
-  assign idle_o     = blocks_q == '0 & ~(drain_i & flight_valid);
+  assign idle_o     = blocks_q == '0 & ~(drain_i & (flight_valid | apply_q[1]));
 
 `ifndef SYNTHESIS
   logic [Triangles-1:0][SlotBits-1:0] written_q;

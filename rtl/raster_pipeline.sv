@@ -183,8 +183,8 @@ module raster_pipeline
   hi_z_update_t update;
 
   if (HiZ) begin : gen_hi_z
-    // A clear waits until hi_z has applied all jobs. It is done no later than early_z with its part of a clear: a surface
-    // has no more blocks than tiles.
+    // A clear waits until hi_z has applied all jobs. Its part of it is done long before the next block: it takes no longer
+    // than early_z's, since a surface has no more blocks than tiles, but for two cycles, and setup takes more.
     logic unused_clear_done;
 
     hi_z #(

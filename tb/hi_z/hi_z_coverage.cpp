@@ -44,15 +44,16 @@ HiZCoverage::HiZCoverage(const HiZShape& shape) {
       }
     }
   }
-  bins_.add("block taken with a job of the same block");
-  for (int before = 1; before <= 2; ++before) {
+  for (int before = 1; before <= 3; ++before) {
     bins_.add(fmt::format("block taken {} after a job of the same block", before));
   }
   for (int before = 1; before <= 4; ++before) {
     bins_.add(fmt::format("block {} after itself", before));
   }
-  for (int before = 1; before <= 3; ++before) {
+  for (int before = 1; before <= 4; ++before) {
     bins_.add(fmt::format("job {} after one of the same block", before));
+  }
+  for (int before = 0; before <= 3; ++before) {
     bins_.add(fmt::format("job {} after the same block", before));
   }
   for (const char* which : {"none", "raise", "lower", "both"}) {

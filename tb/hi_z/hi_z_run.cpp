@@ -257,7 +257,8 @@ class HiZRun {
     if (clearing_) {
       const std::uint64_t blocks = command.last - command.first + 1;
       const auto per_cycle = static_cast<std::uint64_t>(shape_.clear_blocks);
-      const bool done = cycle_ == clear_begin_ + (blocks + per_cycle - 1) / per_cycle;
+      // The first mark is in the second cycle after that of the clear.
+      const bool done = cycle_ == clear_begin_ + 1 + (blocks + per_cycle - 1) / per_cycle;
       if (options_.timing && out_.clear_done != done && options_.fault == HiZFault::kNone) {
         fail(Failure{FailureKind::kTiming, cycle_,
                      fmt::format("clear done is {:d} {} cycles after the clear of {} blocks", out_.clear_done,

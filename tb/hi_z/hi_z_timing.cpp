@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kRejectLatency = 4;       // a block that is rejected is in the unit so long
 constexpr std::uint64_t kSlotLatency = 5;         // to the triangle's slot
-constexpr std::int64_t kUnknown = kHiZDepth - 1;  // blocks of which it is not known yet whether they leave
+constexpr std::int64_t kUnknown = kHiZUndecided;  // blocks of which it is not known yet whether they leave
 constexpr std::size_t kRemembered = 4;
 constexpr std::uint8_t kBusy = 0;
 constexpr std::uint8_t kNoBlock = 1;
@@ -27,15 +27,9 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
   const auto timing = [cycle](std::string message) {
     return Failure{FailureKind::kTiming, cycle, std::move(message)};
   };
-  const bool idle = blocks_in_ == 0 && !(in.drain && applied_ < jobs_.size());
-  // What is applied in this cycle.
-  const std::uint64_t target = std::max(
-      seen_, jobs_before_.front() - std::min(jobs_before_.front(), static_cast<std::uint64_t>(shape_.lag)));
-  const bool may = in.drain && blocks_in_ == 0 ? applied_ < jobs_.size() : applied_ < target;
-  const bool applies = may && applied_ < ready_at_.size() && ready_at_[applied_] <= cycle;
-  if (applies) {
-    apply(cycle);
-  }
+  const bool idle = blocks_in_ == 0 && !(in.drain && (applied_ < jobs_.size() || has_applied_));
+  const bool drains = in.drain && blocks_in_ == 0;
+  const std::uint64_t target = must_see();
   const bool seen = applied_ >= target;
   const std::int64_t held = static_cast<std::int64_t>(passed_before_.front() - left_);
   const bool slot = held + kUnknown < shape_.fifo;
@@ -74,7 +68,13 @@ std::optional<Failure> HiZTiming::cycle(std::uint64_t cycle, const HiZCommand* c
       coverage_.hit("taken after a wait");
     }
     waited_ = false;
-    take(cycle, *command, applies);
+    take(cycle, *command);
+  }
+  // A job that the next block must see, whether this one is taken or not.
+  const bool may = applied_ < (drains ? jobs_.size() : must_see());
+  has_applied_ = may && applied_ < ready_at_.size() && ready_at_[applied_] <= cycle;
+  if (has_applied_) {
+    apply(cycle);
   }
   while (!rejected_at_.empty() && rejected_at_.front() <= cycle) {
     rejected_at_.pop_front();
@@ -111,7 +111,11 @@ std::optional<Failure> HiZTiming::compare_slot(std::uint64_t cycle, const HiZOut
   return std::nullopt;
 }
 
-void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applied_with) {
+std::uint64_t HiZTiming::must_see() const {
+  return hi_z_must_see(jobs_before_.front(), static_cast<std::uint64_t>(shape_.lag), seen_);
+}
+
+void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command) {
   static constexpr std::array<const char*, 8> kFunctions = {"NEVER",   "LESS",     "EQUAL",  "LEQUAL",
                                                             "GREATER", "NOTEQUAL", "GEQUAL", "ALWAYS"};
   seen_ = applied_;
@@ -148,11 +152,8 @@ void HiZTiming::take(std::uint64_t cycle, const HiZCommand& command, bool applie
     coverage_.hit(fmt::format("block of format {}, {} plane, {} of its tiles rejected",
                               static_cast<int>(command.state.format), command.plane ? "with a" : "without a",
                               outcome));
-    if (applied_with && applies_.front().number == command.number) {
-      coverage_.hit("block taken with a job of the same block");
-    }
     for (const Event& event : applies_) {
-      for (std::uint64_t before = 1; before <= 2; ++before) {
+      for (std::uint64_t before = 1; before <= 3; ++before) {
         if (event.cycle + before == cycle && event.number == command.number) {
           coverage_.hit(fmt::format("block taken {} after a job of the same block", before));
         }
@@ -233,14 +234,14 @@ void HiZTiming::apply(std::uint64_t cycle) {
                                               : "range stays");
     coverage_.hit(fmt::format("job of {} parts", std::popcount(job.update.touched)));
     for (const Event& event : applies_) {
-      for (std::uint64_t before = 1; before <= 3; ++before) {
+      for (std::uint64_t before = 1; before <= 4; ++before) {
         if (event.cycle + before == cycle && event.number == job.number) {
           coverage_.hit(fmt::format("job {} after one of the same block", before));
         }
       }
     }
     for (const Event& event : blocks_) {
-      for (std::uint64_t before = 1; before <= 3; ++before) {
+      for (std::uint64_t before = 0; before <= 3; ++before) {
         if (event.cycle + before == cycle && event.number == job.number) {
           coverage_.hit(fmt::format("job {} after the same block", before));
         }
@@ -256,7 +257,7 @@ void HiZTiming::apply(std::uint64_t cycle) {
 void HiZTiming::cleared(const HiZCommand& command) {
   seen_ = applied_;
   jobs_before_.assign(kHiZDepth, jobs_.size());
-  passed_before_.assign(kHiZDepth, passed_);
+  passed_before_.assign(kHiZUndecided + 1, passed_);
   std::fill(states_.begin() + command.first, states_.begin() + command.last + 1, State::kCleared);
 }
 
@@ -267,7 +268,7 @@ void HiZTiming::forget() {
   applied_ = 0;
   seen_ = 0;
   jobs_before_.assign(kHiZDepth, 0);
-  passed_before_.assign(kHiZDepth, passed_);
+  passed_before_.assign(kHiZUndecided + 1, passed_);
   words_.assign(static_cast<std::size_t>(shape_.memory_blocks), {});
   states_.assign(static_cast<std::size_t>(shape_.memory_blocks), State::kUnknown);
 }
@@ -280,7 +281,7 @@ void HiZTiming::clear() {
   passed_ = left_;
   forget();
   was_reset_ = true;
-  waited_ = false;
+  waited_ = has_applied_ = false;
   blocks_in_ = 0;
   rejected_at_.clear();
   visible_at_.clear();

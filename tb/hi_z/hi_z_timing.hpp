@@ -1,8 +1,10 @@
 /// The cycles of docs/units/hi_z.md, as the pins that follow from them:
 ///
 ///     a(i)       = max(ready(i), a(i-1) + 1, h(k-1) + 1)             seen(k-1) <= i < seen(k)
-///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), leave(n + 3 - fifo) + 1)   n: of blocks up to
-///     k-4 visible(n) = h(k) + 6
+///     h(k)       = max(visible(k), h(k-1) + 1, a(seen(k) - 1), leave(n + 3 - fifo) + 1)
+///     visible(n) = h(k) + 6
+///
+/// n counts the blocks up to k-4 that leave. The unit applies a job in the cycle before a(i).
 ///
 /// A block that is rejected is in the unit until h(k) + 4. A triangle is written to its slot 5 cycles after the
 /// h(k) of its first block that leaves.
@@ -29,7 +31,7 @@ class HiZTiming {
     clear();
   }
 
-  /// A job can be applied from cycle `at` on. In their order.
+  /// A job can be applied from cycle `at` on. In the order of jobs.
   void ready(std::uint64_t at) { ready_at_.push_back(at); }
 
   /// Compares the pins of a cycle with what they must be, and takes note of what moves in it. `command`: the
@@ -63,7 +65,9 @@ class HiZTiming {
 
   std::optional<Failure> compare_slot(std::uint64_t cycle, const HiZOutputs& out);
   void apply(std::uint64_t cycle);
-  void take(std::uint64_t cycle, const HiZCommand& command, bool applied_with);
+  /// Jobs that the next block sees.
+  [[nodiscard]] std::uint64_t must_see() const;
+  void take(std::uint64_t cycle, const HiZCommand& command);
   void cover_slot(const HiZCommand& command, bool rejected);
 
   HiZShape shape_;
@@ -71,6 +75,7 @@ class HiZTiming {
   HiZCoverage& coverage_;
   bool was_reset_ = false;
   bool waited_ = false;
+  bool has_applied_ = false;  ///< a job in the cycle before
   int blocks_in_ = 0;
   std::deque<std::uint64_t> rejected_at_;
   std::deque<std::uint64_t> visible_at_;

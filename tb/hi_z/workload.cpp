@@ -44,10 +44,10 @@ class HiZMaker {
   HiZWorkload make(std::size_t blocks) {
     left_ = blocks;
     while (left_ > 0) {
-      const std::uint64_t kind = random_.below(24);
-      if (kind < 4) {
+      const std::uint64_t kind = random_.below(72);
+      if (kind < 12) {
         clear(surfaces_[random_.below(kSurfaces)]);
-      } else if (kind == 4) {
+      } else if (kind == 12) {
         workload_.commands.emplace_back().kind = HiZCommandKind::kFrameEnd;
         forget();
       } else {

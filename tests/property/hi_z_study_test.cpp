@@ -73,7 +73,7 @@ TEST_CASE("hi_z study: by time a block sees an update from the cycle on in which
     const PacketTimes times =
         run_recurrence(builder.frame, config, {.watch = {}, .stalls = {}, .packet_times = true}).times;
     const std::uint64_t beats = 16 / static_cast<std::uint64_t>(config.early_z.quads_per_cycle);
-    const std::uint64_t ready = times.b.front() + beats - 1 + 5;
+    const std::uint64_t ready = times.b.front() + beats - 1 + 6;
     const bool seen = ready <= times.hi_z.back();
     CAPTURE(between, ready, times.hi_z.back());
     const whatif::HiZKills kills =

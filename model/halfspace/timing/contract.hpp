@@ -20,9 +20,9 @@ inline constexpr int kTileLatency = latency(Link::kTileWalker, {});
 inline constexpr int kQuadLatency = latency(Link::kQuadGenerator, {});
 inline constexpr int kTestLatency = latency(Link::kEarlyZ, {});
 
-/// From a coverage without a sample, and from the last beat of a burst at z_test, until hi_z can see it.
-inline constexpr int kHiZEmptyLatency = 2;
-inline constexpr int kHiZUpdateLatency = 5;
+/// From a coverage without a sample, and from the last beat of a burst at z_test, until a block can see it.
+inline constexpr int kHiZEmptyLatency = 3;
+inline constexpr int kHiZUpdateLatency = 6;
 
 /// Registers of z_encoder and z_decoder.
 inline constexpr int kZEncodeLatency = 6;

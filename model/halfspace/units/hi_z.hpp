@@ -6,7 +6,7 @@
 /// What it knows of stored depth comes from early_z, which says of each burst's tile what then lies in it.
 /// What a block sees of that is a matter of order, never of time: a tile job is *seen* by block k when at
 /// least `lag` jobs have left between the two, those of the kHiZDepth blocks before k not counted, because
-/// what becomes of them is not yet known. Jobs that are not seen are in flight. Where one of them may have
+/// what becomes of them is not yet known, or not in time to put in what their jobs let it see. Jobs that are not seen are in flight. Where one of them may have
 /// raised what is stored in its tile, the tile's upper bound counts for nothing, and likewise the lower one.
 /// docs/adr/0012-hi-z.md.
 #pragma once
@@ -24,8 +24,11 @@
 
 namespace halfspace {
 
-/// Blocks under way in the unit.
-inline constexpr std::uint32_t kHiZDepth = 4;
+/// Blocks before a block whose jobs it does not count: what becomes of them is not known, or too late.
+inline constexpr std::uint32_t kHiZDepth = 5;
+
+/// Of these the last, of which it is not known whether they leave.
+inline constexpr std::uint32_t kHiZUndecided = 3;
 
 /// Jobs that a block sees where `before` had left when the block kHiZDepth before it was decided, and the
 /// last block saw `seen`.

@@ -252,7 +252,7 @@ class RecurrenceCore {
     const T& visible = block_visible_;
     const T updated = see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
     const T h = later(later(later(visible, hi_z_next_), updated),
-                      fifo<Fifo::kHiZ>().usable(left_before_.front().blocks + (kHiZDepth - 1)));
+                      fifo<Fifo::kHiZ>().usable(left_before_[kDecided].blocks + kHiZUndecided));
     if constexpr (Probe::kLooks) {
       probe_->template split<3>(Stage::kHiZ, hi_z_next_, {visible, updated, h}, 1);
       probe_->note(&PacketTimes::hi_z, h);
@@ -291,7 +291,7 @@ class RecurrenceCore {
     see(hi_z_must_see(left_before_.front().jobs, *memory_->hi_z_lag, seen_), hi_z_next_);
     const T idle_from = near(at);
     const T from = later(idle_from, hi_z_out_);
-    see(jobs_, from);
+    see(jobs_, from + 1);
     left_before_.fill({.jobs = jobs_, .blocks = passed_});
     return clock_.setup(later(from, update_next_));
   }
@@ -587,6 +587,7 @@ class RecurrenceCore {
     std::uint64_t jobs = 0;
     std::uint64_t blocks = 0;
   };
+  static constexpr std::size_t kDecided = kHiZDepth - kHiZUndecided - 1;  ///< the last block that is decided
   std::array<Left, kHiZDepth> left_before_{};  ///< hi_z at the ends of the last blocks, the oldest first
   std::uint64_t jobs_ = 0;
   std::uint64_t bursts_ = 0;

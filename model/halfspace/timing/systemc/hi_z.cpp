@@ -110,7 +110,7 @@ void HiZ::decide() {
 
 Cycle HiZ::clear(std::uint32_t surface, std::uint32_t code, Cycle idle) {
   see(unit_.must_retire(), next_);  // at once, what the next block must see; the rest when all else is idle
-  see(unit_.jobs(), std::max(idle, out_));
+  see(unit_.jobs(), std::max(idle, out_) + 1);
   unit_.clear(places_[surface], code);
   last_.fill(false);
   return std::max({idle, next_update_, out_});

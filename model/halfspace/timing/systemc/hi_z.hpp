@@ -82,7 +82,7 @@ class HiZ : public sc_core::sc_module {
   Cycle next_ = 0;
   Cycle next_update_ = 0;
   Cycle out_ = 0;
-  std::array<bool, kHiZDepth - 1> last_{};  ///< whether the last blocks left
+  std::array<bool, kHiZUndecided> last_{};  ///< whether the last blocks left
 };
 
 }  // namespace halfspace::systemc
