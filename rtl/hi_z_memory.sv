@@ -190,12 +190,16 @@ module hi_z_memory
     end
   end
 
-  // Cycle 0: which of the three jobs before is of the same block.
-  logic [3:1]            same_q;
-  logic                  stored_q, cleared_q;
-  hi_z_update_t          update1_q;
-  logic [BlockTiles-1:0] tile1_q;
-  code_t                 clear_code_q;
+  // Cycle 0: which of the three jobs before is of the same block, and which entries get bounds.
+  logic [3:1]         same_q;
+  logic               stored_q, cleared_q;
+  hi_z_update_t       update1_q;
+  logic [Entries-1:0] put, put1_q, put2_q;
+  code_t              clear_code_q;
+
+  for (genvar i = 0; i < Entries; i++) begin : gen_put
+    assign put[i] = apply_tile_i[i/ZParts] & apply_update_i.touched[i%ZParts];
+  end
 
   always_ff @(posedge clk_i) begin
     if (apply_i) begin
@@ -203,7 +207,7 @@ module hi_z_memory
         same_q[i] <= valid_q[i] && number_q[i] == apply_number_i;
       end
       update1_q    <= apply_update_i;
-      tile1_q      <= apply_tile_i;
+      put1_q       <= put;
       clear_code_q <= apply_clear_code_i;
       stored_q     <= stored[0];
       cleared_q    <= cleared[0];
@@ -211,13 +215,8 @@ module hi_z_memory
   end
 
   // Cycle 1.
-  logic [Entries-1:0] put1, put2_q;
-  block_word_t        word1;
-  codes_t             least1, most1, made_least_q, made_most_q;
-
-  for (genvar i = 0; i < Entries; i++) begin : gen_put
-    assign put1[i] = tile1_q[i/ZParts] & update1_q.touched[i%ZParts];
-  end
+  block_word_t word1;
+  codes_t      least1, most1, made_least_q, made_most_q;
 
   assign word1 = same_q[3] ? kept_word_q : word_as(stored_q, cleared_q, read_word[0], clear_code_q);
 
@@ -235,7 +234,7 @@ module hi_z_memory
     .Width   (Bits),
     .Entries (Entries)
   ) u_steps (
-    .leave_out_i (put1),
+    .leave_out_i (put1_q),
     .least_i     (word1.least),
     .most_i      (word1.most),
     .first_o     (first_step),
@@ -249,7 +248,7 @@ module hi_z_memory
     .Width   (CodeBits),
     .Entries (Entries)
   ) u_codes (
-    .leave_out_i (put1),
+    .leave_out_i (put1_q),
     .least_i     (span_least),
     .most_i      (span_most),
     .first_o     (first_made),
@@ -263,7 +262,7 @@ module hi_z_memory
 
   always_ff @(posedge clk_i) begin
     if (valid_q[1]) begin
-      put2_q        <= put1;
+      put2_q        <= put1_q;
       part2_q       <= update1_q.touched;
       part_least2_q <= update1_q.least;
       part_most2_q  <= update1_q.most;
