@@ -255,9 +255,9 @@ module hi_z_memory
     .last_o      (last_made)
   );
 
-  codes_t            least2_q, most2_q, rounded_least, rounded_most;
-  code_t             first2_q, last2_q, first;
-  logic [ZParts-1:0] part2_q;
+  codes_t             least2_q, most2_q, rounded_least, rounded_most;
+  code_t              first2_q, last2_q, first;
+  logic [ZParts-1:0]  part2_q;
   code_t [ZParts-1:0] part_least2_q, part_most2_q;
 
   always_ff @(posedge clk_i) begin
@@ -321,9 +321,9 @@ module hi_z_memory
   end
 
   // Cycle 3: the bits below a step are so many; of steps the low bits tell how far they are from the first.
-  word_shift_t            shift;
-  bound_t                 start;
-  bound_t [Entries-1:0]   least_steps, most_steps;
+  word_shift_t          shift;
+  bound_t               start;
+  bound_t [Entries-1:0] least_steps, most_steps;
 
   always_comb begin
     shift = '0;

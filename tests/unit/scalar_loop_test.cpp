@@ -29,7 +29,8 @@ void check_alike(const Frame& frame) {
 
 }  // namespace
 
-TEST_CASE("scalar loop: covers what the units cover, on every synthetic frame and in both formats") {
+TEST_CASE("scalar loop: covers what the units cover, on every synthetic frame and in both formats",
+          "[exhaustive]") {
   for (const SyntheticInfo& info : synthetic_frames()) {
     for (const DepthFormat format : {DepthFormat::kUnorm24, DepthFormat::kFloat32}) {
       check_alike(synthetic_frame(info.name, format));
@@ -37,7 +38,7 @@ TEST_CASE("scalar loop: covers what the units cover, on every synthetic frame an
   }
 }
 
-TEST_CASE("scalar loop: covers what the units cover, on the frames that ship") {
+TEST_CASE("scalar loop: covers what the units cover, on the frames that ship", "[exhaustive]") {
   for (const char* name : {"vkcube", "cc0_truck"}) {
     check_alike(load(HALFSPACE_SCENES "/" + std::string(name) + ".ptf.xz"));
   }
