@@ -68,13 +68,26 @@ HiZCoverage::HiZCoverage(const HiZShape& shape) {
   for (int parts = 1; parts <= shape.widths.ZParts; ++parts) {
     bins_.add(fmt::format("job of {} parts", parts));
   }
-  for (const char* name :
-       {"triangle of which nothing is left", "triangle of which several blocks leave",
-        "triangle whose first block is rejected, and a later one leaves", "last slot", "job without bounds", "waits for updates", "waits for a slot", "waits for updates and a slot",
-        "taken after a wait", "clear with jobs to apply", "clear with all jobs applied", "clear of one block",
-        "clear of several blocks", "clear after a block that was rejected",
-        "end of a frame with jobs not applied", "end of a frame", "reset with a block under way",
-        "reset without a block under way", "reset with jobs not applied", "reset with all jobs applied"}) {
+  for (const char* name : {"triangle of which nothing is left",
+                           "triangle of which several blocks leave",
+                           "triangle whose first block is rejected, and a later one leaves",
+                           "last slot",
+                           "job without bounds",
+                           "waits for updates",
+                           "waits for a slot",
+                           "waits for updates and a slot",
+                           "taken after a wait",
+                           "clear with jobs to apply",
+                           "clear with all jobs applied",
+                           "clear of one block",
+                           "clear of several blocks",
+                           "clear after a block that was rejected",
+                           "end of a frame with jobs not applied",
+                           "end of a frame",
+                           "reset with a block under way",
+                           "reset without a block under way",
+                           "reset with jobs not applied",
+                           "reset with all jobs applied"}) {
     bins_.add(name);
   }
 }

@@ -105,8 +105,9 @@ std::optional<Failure> HiZTiming::compare_slot(std::uint64_t cycle, const HiZOut
   }
   const HiZTriangleWords& triangle = workload_.triangles[kept.triangle];
   if (out.equation != triangle.equation || out.state != triangle.state) {
-    return Failure{FailureKind::kPayload, cycle,
-                   fmt::format("slot {}: not the equation and state of triangle {}", kept.slot, kept.triangle)};
+    return Failure{
+        FailureKind::kPayload, cycle,
+        fmt::format("slot {}: not the equation and state of triangle {}", kept.slot, kept.triangle)};
   }
   return std::nullopt;
 }

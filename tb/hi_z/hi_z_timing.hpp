@@ -6,8 +6,8 @@
 ///
 /// n counts the blocks up to k-4 that leave. The unit applies a job in the cycle before a(i).
 ///
-/// A block that is rejected is in the unit until h(k) + 4. A triangle is written to its slot 5 cycles after the
-/// h(k) of its first block that leaves.
+/// A block that is rejected is in the unit until h(k) + 4. A triangle is written to its slot 5 cycles after
+/// the h(k) of its first block that leaves.
 #pragma once
 
 #include <cstdint>

@@ -53,7 +53,7 @@ Config random_ledger_machine(Random& random) {
 
 }  // namespace
 
-TEST_CASE("ledger: every cause is what brute force says, on random frames", "[property]") {
+TEST_CASE("ledger: every cause is what brute force says, on random frames", "[property][exhaustive]") {
   Random random(seed());
   Accounts sum;
   for (std::uint64_t run = 0; run < samples(200'000) / 1000; ++run) {

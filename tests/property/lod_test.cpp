@@ -232,7 +232,7 @@ TEST_CASE("lod: no point of a bumpy surface moves farther than it may", "[proper
 }
 
 TEST_CASE("lod: the parts of a truck stay within the pixels asked for, and more of them take fewer triangles",
-          "[property]") {
+          "[property][exhaustive]") {
   Random random(seed() + 2);
   const Frame truck = read_ptf(HALFSPACE_SCENES "/cc0_truck.ptf.xz");
   std::uint64_t last = triangles_of(truck);

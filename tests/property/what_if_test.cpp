@@ -291,7 +291,8 @@ TEST_CASE("what if: depth that goes ahead shades what a naive depth buffer says"
   CHECK(saved > 0);
 }
 
-TEST_CASE("what if: no order changes the depth of random frames, nor moves what may not move", "[property]") {
+TEST_CASE("what if: no order changes the depth of random frames, nor moves what may not move",
+          "[property][exhaustive]") {
   Random random(seed() + 1);
   std::uint64_t acted = 0;
   for (std::uint64_t run = 0; run < samples(2'000'000) / kWhatIfFrameSamples; ++run) {

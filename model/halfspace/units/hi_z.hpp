@@ -6,9 +6,9 @@
 /// What it knows of stored depth comes from early_z, which says of each burst's tile what then lies in it.
 /// What a block sees of that is a matter of order, never of time: a tile job is *seen* by block k when at
 /// least `lag` jobs have left between the two, those of the kHiZDepth blocks before k not counted, because
-/// what becomes of them is not yet known, or not in time to put in what their jobs let it see. Jobs that are not seen are in flight. Where one of them may have
-/// raised what is stored in its tile, the tile's upper bound counts for nothing, and likewise the lower one.
-/// docs/adr/0012-hi-z.md.
+/// what becomes of them is not yet known, or not in time to put in what their jobs let it see. Jobs that are
+/// not seen are in flight. Where one of them may have raised what is stored in its tile, the tile's upper
+/// bound counts for nothing, and likewise the lower one. docs/adr/0012-hi-z.md.
 #pragma once
 
 #include <cstdint>
