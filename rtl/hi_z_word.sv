@@ -59,6 +59,11 @@ module hi_z_word
   code_t length;
   assign length = last - first;
 
+  if (Bits == CodeBits) begin : gen_exact // a step is a code
+    logic unused_length;
+    assign unused_length = ^length;
+  end
+
   for (genvar i = 0; i < CodeBits; i++) begin : gen_below
     if (i + Bits < CodeBits) begin : gen_more
       logic borrow;
