@@ -133,7 +133,7 @@ TEST_CASE("threads: a timed run gives the same, on both cores", "[timing]") {
   }
 }
 
-TEST_CASE("threads: a frame of many parts is timed the same", "[timing]") {
+TEST_CASE("threads: a frame of many parts is timed the same", "[timing][exhaustive]") {
   const Frame frame = synthetic_frame("medium");
   for (const Core core : {Core::kFast, Core::kReadable}) {
     EngineOptions options;
@@ -160,7 +160,7 @@ TEST_CASE("threads: a record is the same, from both cores", "[timing]") {
   }
 }
 
-TEST_CASE("threads: a batch of machines is timed the same, exactly and by a sample", "[timing]") {
+TEST_CASE("threads: a batch of machines is timed the same, exactly and by a sample", "[timing][exhaustive]") {
   Random random(seed());
   for (int run = 0; run < 12; ++run) {
     CAPTURE(seed(), run);
