@@ -8,4 +8,5 @@ hi_z_word.sv
 hi_z_memory.sv
 hi_z_plane.sv
 hi_z_test.sv
+hi_z_slots.sv
 hi_z.sv

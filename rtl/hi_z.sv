@@ -211,9 +211,8 @@ module hi_z
   } flight_t;
 
   flight_t new_flight, flight;
-  logic    new_flight_valid, flight_valid;
+  logic    new_flight_valid, flight_valid, flight_last;
   tiles_t  unapplied_q, unapplied, after, pick;
-  logic    flight_last;
 
   assign unapplied   = flight.tiles & unapplied_q;
   assign after       = unapplied & (unapplied - tiles_t'(1));
@@ -241,15 +240,15 @@ module hi_z
     end
   end
 
-  // How many jobs the next block must see that are not applied. It does not count those of the last four blocks: these
-  // wait here, the oldest first, until as many blocks have been taken after them.
+  // How many jobs the next block must see that are not applied; `due` is of the block after the one of this cycle. It does
+  // not count those of the last four blocks: these wait here, the oldest first, until as many blocks have been taken after
+  // them.
   localparam int unsigned CountBits = $clog2(Jobs + 1) + 2;
   localparam int unsigned LeftBits = $clog2(BlockTiles + 1);
 
   typedef logic signed [CountBits-1:0] count_t;
-  typedef logic [LeftBits-1:0] left_t;
-
   typedef logic signed [$clog2(FifoDepth+1):0] slots_t;
+  typedef logic [LeftBits-1:0] left_t;
 
   slots_t      blocks_q;           // in the unit
   count_t      due_q, due;
@@ -259,7 +258,7 @@ module hi_z
   logic        job_ready, seen, credit;
 
   assign seen      = due_q <= count_t'(0);
-  assign due       = due_q + (take ? count_t'({1'b0, waiting_q[0]}) : '0); // of the block after that of this cycle
+  assign due       = due_q + (take ? count_t'({1'b0, waiting_q[0]}) : '0);
   assign job_ready = kind_valid & (~kind_burst | update_valid);
   assign apply     = job_ready & (due > count_t'(0) | (drain_i & blocks_q == '0));
 
@@ -290,7 +289,6 @@ module hi_z
   // A job in its cycles 1 and 2.
   logic [2:1] apply_q, apply_last_q;
   tiles_t     apply_pick_q [1:2];
-  number_t    number1, number2_q;
 
   always_ff @(posedge clk_i) begin
     if (!frame_ni) begin
@@ -311,7 +309,8 @@ module hi_z
     end
   end
 
-  // A block in its cycle 1: its number, and the plane.
+  // A block in its cycle 1: its number, and the plane. number1 and the like are of the block in that cycle.
+  number_t    number1, number2_q, number3_q, number4_q;
   block_job_t job_q [1:5];
 
   always_ff @(posedge clk_i) begin
@@ -376,8 +375,7 @@ module hi_z
   // A float32 of field 0 is mantissa * 2^-150 and twice that; two bits are put below it; a word's unit is 2^(exponent - 31).
   localparam up_t FloatScale = -11'sd121;
 
-  test_t   test2_q, test3_q;
-  number_t number3_q, number4_q;
+  test_t test2_q, test3_q;
 
   always_ff @(posedge clk_i) begin
     if (valid_q[1]) begin
@@ -443,7 +441,7 @@ module hi_z
 
   // Jobs in flight in the same block: those in u_flights, and those of the blocks in cycle 4 of this cycle and the next.
   tiles_t found_up, found_down, left4, up3_q, down3_q;
-  logic   up4_q, down4_q, leaves4, same3_q;
+  logic   up4_q, down4_q, leaves4, same3_q, same4;
 
   hi_z_flights #(
     .MemoryBlocks (MemoryBlocks),
@@ -466,7 +464,6 @@ module hi_z
 
   logic [BlockTiles-1:0][CodeBits:0] upper3_q, lower3_q;
   logic [BlockTiles-1:0][UnitBits:0] least3_q, most3_q;
-  logic                              same4;
 
   assign left4   = job_q[4].tiles;
   assign leaves4 = valid_q[4] & (|left4);
@@ -542,34 +539,27 @@ module hi_z
 
   code_t clear_code4_q;
 
-  // The slot of the triangle in cycle 4: a new one with its first block that leaves. The blocks of a triangle come one
-  // after the other.
-  logic                walked_q;  // a block before this one was in cycle 4
-  logic [SlotBits-1:0] walked_slot_q;
-  logic                given_q;   // its triangle has a slot
-  logic [SlotBits-1:0] given_slot_q, slot4;
-  logic                given4, first4;
+  logic [SlotBits-1:0] slot4;
 
-  assign given4 = walked_q & given_q && walked_slot_q == job_q[4].slot;
-  assign first4 = leaves4 & ~given4;
-  assign slot4  = given_slot_q + SlotBits'(first4);
-
-  always_ff @(posedge clk_i) begin
-    if (!frame_ni) begin
-      walked_q     <= 1'b0;
-      given_slot_q <= '1;
-    end else if (valid_q[4]) begin
-      walked_q     <= 1'b1;
-      given_slot_q <= slot4;
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (valid_q[4]) begin
-      walked_slot_q <= job_q[4].slot;
-      given_q       <= leaves4 | given4;
-    end
-  end
+  hi_z_slots #(
+    .Triangles (Triangles)
+  ) u_slots (
+    .clk_i           (clk_i),
+    .rst_ni          (rst_ni),
+    .forget_i        (forget_i),
+    .write_i         (slot_write_i),
+    .slot_i          (slot_i),
+    .equation_i      (slot_equation_i),
+    .state_i         (slot_state_i),
+    .block_i         (valid_q[4]),
+    .block_slot_i    (job_q[4].slot),
+    .leaves_i        (leaves4),
+    .leaves_slot_o   (slot4),
+    .slot_write_o    (slot_write_o),
+    .slot_o          (slot_o),
+    .slot_equation_o (slot_equation_o),
+    .slot_state_o    (slot_state_o)
+  );
 
   always_ff @(posedge clk_i) begin
     if (valid_q[3]) begin
@@ -586,32 +576,6 @@ module hi_z
       job_q[5].slot <= slot4;
     end
   end
-
-  logic slot_write_q;
-
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      slot_write_q <= 1'b0;
-    end else begin
-      slot_write_q <= first4;
-    end
-  end
-
-  sync_ram #(
-    .Width ($bits(depth_equation_t) + $bits(draw_state_t)),
-    .Depth (Triangles)
-  ) u_kept (
-    .clk_i           (clk_i),
-    .write_i         (slot_write_i),
-    .write_address_i (place_t'(slot_i)),
-    .data_i          ({slot_equation_i, slot_state_i}),
-    .read_i          (first4),
-    .read_address_i  (place_t'(job_q[4].slot)),
-    .data_o          ({slot_equation_o, slot_state_o})
-  );
-
-  assign slot_write_o = slot_write_q;
-  assign slot_o       = job_q[5].slot;
 
   assign new_flight_valid = leaves4;
   assign new_flight       = '{number: number4_q, tiles: left4, clear_code: clear_code4_q};
@@ -664,25 +628,6 @@ module hi_z
   assign idle_o     = blocks_q == '0 & ~(drain_i & (flight_valid | apply_q[1]));
 
 `ifndef SYNTHESIS
-  logic [Triangles-1:0][SlotBits-1:0] written_q;
-  logic [SlotBits-1:0] tested, kept, leaving;
-
-  assign tested  = written_q[place_t'(block_i.slot)];
-  assign leaving = job_q[4].slot;
-  assign kept    = written_q[place_t'(leaving)];
-
-  always_ff @(posedge clk_i) begin
-    if (slot_write_i) begin
-      written_q[place_t'(slot_i)] <= slot_i;
-    end
-  end
-
-  TestsAnotherTriangle: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      take |-> tested == block_i.slot)
-  else $error("a block is taken, and its slot has another triangle");
-  KeepsAnotherTriangle: assert property (@(posedge clk_i) disable iff (!rst_ni)
-      first4 |-> kept == leaving)
-  else $error("a block leaves, and its slot has another triangle");
   JobHasLeft: assert property (@(posedge clk_i) disable iff (!frame_ni)
       apply |-> flight_valid && unapplied != '0)
   else $error("a job that has not left is applied");

@@ -65,7 +65,8 @@ GROUPS = {
         "hi_z",
         ["lag8", "lag1", "parts"],
         ["--blocks", "20000"],
-        ["hi_z", "hi_z_memory", "hi_z_span", "hi_z_word", "hi_z_test", "hi_z_plane", "hi_z_flights", "hi_z_states"],
+        ["hi_z", "hi_z_memory", "hi_z_span", "hi_z_word", "hi_z_test", "hi_z_plane", "hi_z_flights", "hi_z_states"]
+        + ["hi_z_slots"],
     ),
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
