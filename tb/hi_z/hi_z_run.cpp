@@ -19,8 +19,9 @@ namespace {
 
 constexpr std::uint64_t kDrainCycles = 64;
 constexpr std::uint64_t kDeadlockCycles = 4000;
-constexpr std::uint64_t kSlotCycles = 2;   // from a triangle's slot to its first block, at least
-constexpr std::uint64_t kBurstCycles = 3;  // from a coverage to its bounds, at least
+constexpr std::uint64_t kMostBlocksAhead = 8;  // in block_walker's FIFO
+constexpr std::uint64_t kSlotCycles = 2;       // from a triangle's slot to its first block, at least
+constexpr std::uint64_t kBurstCycles = 3;      // from a coverage to its bounds, at least
 // Independent seeds from one; the words are arbitrary.
 constexpr std::uint64_t kIdleSeed = 0x1d1e;
 constexpr std::uint64_t kStallSeed = 0x57a11;
@@ -157,8 +158,8 @@ class HiZRun {
         offered_ = offered_ || (known && !draw_idle);
         in_.block_valid = offered_;
         in_.block = command.words;
-        // The next triangle's slot comes while the blocks of this one do.
-        ahead_ = command.triangle + 1;
+        // Slots come while blocks wait in block_walker's FIFO, each of another triangle.
+        ahead_ = std::max(ahead_, command.triangle + 1 + random_.below(kMostBlocksAhead));
       } else {
         // Everything else in the machine is idle.
         in_.drain = command.kind == HiZCommandKind::kClear && leaving_.empty() && kinds_.empty() &&
