@@ -332,6 +332,7 @@ class HiZRun {
     HiZInputs other = in_;
     other.block_valid = !in_.block_valid;
     other.left_ready = !in_.left_ready;
+    other.slot_write = !in_.slot_write;
     other.job_valid = !in_.job_valid;
     other.update_valid = !in_.update_valid;
     for (std::vector<std::uint32_t>* const words :
@@ -342,7 +343,8 @@ class HiZRun {
     }
     dut_.settle(other, out_);
     if (out_.block_ready != was.block_ready || out_.left_valid != was.left_valid || out_.left != was.left ||
-        out_.idle != was.idle) {
+        out_.idle != was.idle || out_.slot_write != was.slot_write || out_.slot != was.slot ||
+        out_.equation != was.equation || out_.state != was.state) {
       fail(Failure{FailureKind::kHandshake, cycle_, "an output follows an input within the cycle"});
     }
     dut_.settle(in_, out_);
