@@ -10,7 +10,7 @@ product = m * z;
 float_sum = product0 + product1 + product2;
 
 { a in [1b31,4294967295] /\ e in [0,4294967295] /\ m in [0,4294967295] /\ z in [0,16777215]
-  /\ z0 in [-1b31,2147483647] /\ |rise1| <= 4294967295 /\ |rise2| <= 2147483647
+  /\ z0 in [-1b31,2147483647] /\ |rise1| <= 2147483647 /\ |rise2| <= 2147483647
   /\ weight1 in [0,1b30] /\ weight2 in [0,1b30]
   /\ product0 in [0,1b56] /\ product1 in [0,1b56] /\ product2 in [0,1b56]
   -> r in [1b31,4294967295]

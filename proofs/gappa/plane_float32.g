@@ -25,4 +25,3 @@ vertices - exact -> -1 +
   (k0 * (fixed<0,zr>(z0) - z0 + 1) + k1 * (fixed<0,zr>(z1) - z1 + 1) + (1 - k0 - k1) * (fixed<0,zr>(z2) - z2 + 1));
 vertices - exact -> 1 -
   (k0 * (1 - (fixed<0,zr>(z0) - z0)) + k1 * (1 - (fixed<0,zr>(z1) - z1)) + (1 - k0 - k1) * (1 - (fixed<0,zr>(z2) - z2)));
-sum - (exact + offset) -> (word - exact) + (fixed<0,zr>(offset) - offset);

@@ -5,4 +5,4 @@
 steps = (pixel + 0.5 - vertex) * S;
 
 { pixel in [0,16383] /\ vertex in [-32767,32767] /\ S in [16,256]
-  -> steps in [-12582528,12582528] }
+  -> steps in [-8388224,12582528] }
