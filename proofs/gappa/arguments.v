@@ -21,7 +21,7 @@ Proof.
   rewrite <- Z.pow_add_r by lia. f_equal. lia.
 Qed.
 
-(* model/halfspace/units/depth_plane.hpp, `nearest`: the low bits of a product are enough for those of the word. *)
+(* model/halfspace/units/depth_plane.hpp, `nearest`: the low bits of a product are enough for the word's. *)
 Lemma nearest_of_low_bits : forall value half bits fraction word,
   0 <= fraction -> 0 <= word -> fraction + word <= bits ->
   ((value mod 2 ^ bits + half) mod 2 ^ bits / 2 ^ fraction) mod 2 ^ word
@@ -69,8 +69,8 @@ End Words.
 Section Clamp.
 Open Scope R_scope.
 
-(* model/halfspace/units/z_test.cpp: the code is clamped to those of the nearest and the farthest vertex. They are
-   half a unit away from the depths, between which the exact depth is. *)
+(* model/halfspace/units/z_test.cpp: the code is clamped to those of the nearest and the farthest vertex. They
+   are at most half a unit away from the depths, between which the exact depth is. *)
 Theorem clamp_adds_no_error : forall exact code least most least_code most_code off,
   least <= exact <= most ->
   Rabs (least_code - least) <= 1 / 2 -> Rabs (most_code - most) <= 1 / 2 ->

@@ -1,9 +1,10 @@
-# Barycentric depth of vertices outside [0, 1] on unorm surfaces: model/halfspace/units/depth_barycentric.hpp,
-# barycentric_unorm(), `cut`.
+# Barycentric depth of vertices outside [0, 1] on unorm surfaces:
+# model/halfspace/units/depth_barycentric.hpp, barycentric_unorm(), `cut`.
 # docs/numerics.md, Depth state: "Barycentric depths lose e + 1 bits instead".
-# In units of 2^(e + 1) of a vertex depth, which is 2^(e - 30) of depth: z0 to z2 are the vertex depths, k0 to k2 the
-# weights of a sample, off what both weights move z by, relative to the rises (barycentric_depth.g), range the
-# largest rise. A rise is that of cut depths, so a unit more than that of the depths.
+# In units of 2^(e + 1) of a vertex depth, which is 2^(e - 30) of depth: z0 to z2 are the vertex depths, k0
+# to k2 the weights of a sample, off what both weights move z by, relative to the rises
+# (barycentric_depth.g), range the largest rise. A rise is that of cut depths, so a unit more than that of
+# the depths.
 
 cut0 = fixed<0,dn>(z0);
 cut1 = fixed<0,dn>(z1);

@@ -1,8 +1,9 @@
 # Barycentric depth on float32 surfaces before it is rounded: model/halfspace/units/depth_barycentric.cpp,
 # barycentric_float(), from the sum of the terms on.
-# docs/numerics.md, Depth, Barycentric: "the error is at most 0.52 units of the last place".
-# Scales are such that the sum has its top bit at bit 31, as 2A has: v is 2A / 2^shift. z is the exact depth, lost
-# what the terms lose (barycentric_float_terms.g) and 2^-53 for the cut of two of them to the place of the third.
+# docs/numerics.md, Depth, Barycentric: "The error is at most 0.52 units of the last place".
+# Scales are such that the sum has its top bit at bit 31, as 2A has: v is 2A / 2^shift. z is the exact
+# depth, lost what the terms lose (barycentric_float_terms.g) and 2^-53 for the cut of two of them to the
+# place of the third.
 
 a = fixed<0,dn>(v);
 r = fixed<0,dn>((1b63 - 1) / a);

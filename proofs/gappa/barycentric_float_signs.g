@@ -1,9 +1,11 @@
 # Barycentric depth on float32 surfaces where vertex depths have both signs, or an offset is added:
 # model/halfspace/units/depth_barycentric.cpp, barycentric_float().
-# docs/numerics.md, Depth state: "where depths of both signs cancel, the error of the barycentric sum is absolute".
-# In units of the largest magnitude of a vertex depth. k0 to k2 are the weights of a sample, cut0 to cut2 what a
-# term loses of itself (barycentric_float_terms.g), lost0 to lost2 what it loses to the place of the largest one,
-# m_off what the sum loses of itself, r_off the error of the reciprocal (barycentric_reciprocal.g).
+# docs/numerics.md, Depth state: "where depths of both signs cancel, the error of the barycentric sum is
+# absolute".
+# In units of the largest magnitude of a vertex depth. k0 to k2 are the weights of a sample, cut0 to cut2
+# what a term loses of itself (barycentric_float_terms.g), lost what all lose to the place of the
+# largest one, m_off what the sum loses of itself, r_off the error of the reciprocal
+# (barycentric_reciprocal.g).
 
 k2 = 1 - k0 - k1;
 sum = k0 * z0 * (1 - cut0) + k1 * z1 * (1 - cut1) + k2 * z2 * (1 - cut2) - lost;

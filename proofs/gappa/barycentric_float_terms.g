@@ -1,8 +1,8 @@
-# The sum of the three products on float32 surfaces: model/halfspace/units/depth_barycentric.cpp, normalise() of the
-# edge values.
-# docs/numerics.md, Depth, Barycentric: "cutting the three E_i to 32 bits" costs 2^-31 of the sum.
-# e is E_i as normalise() scales it, before the cut, and y the vertex depth, not negative, times the power of two
-# that undoes the scale. An E_i that is 0 adds nothing to either sum.
+# The sum of the three products on float32 surfaces: model/halfspace/units/depth_barycentric.cpp,
+# normalise() of the edge values.
+# docs/numerics.md, Depth, Barycentric: "cutting the three E_i to 32 bits".
+# e is E_i as normalise() scales it, before the cut, and y the vertex depth, not negative, times the power
+# of two that undoes the scale. An E_i that is 0 adds nothing to either sum.
 
 cut = fixed<0,dn>(e0) * y0 + fixed<0,dn>(e1) * y1 + fixed<0,dn>(e2) * y2;
 exact = e0 * y0 + e1 * y1 + e2 * y2;

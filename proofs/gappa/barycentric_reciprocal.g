@@ -1,5 +1,5 @@
 # The reciprocal of 2A: model/halfspace/units/depth_barycentric.cpp, set_reciprocal().
-# docs/numerics.md, Depth, Barycentric: "R costs 2^-31", and cutting 2A gives 2^-31 at most.
+# docs/numerics.md, Depth, Barycentric: "R cost 2^-31 each" ... "cutting 2A gives at most 2^-31".
 # v is 2A / 2^shift, a the same cut to 32 bits.
 
 a = fixed<0,dn>(v);

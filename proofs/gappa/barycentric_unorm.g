@@ -1,8 +1,9 @@
 # Codes of barycentric depth on unorm surfaces: model/halfspace/units/z_test.cpp, interpolate_barycentric().
-# docs/numerics.md, Depth, Barycentric: "The error is at most 0.551 units of a 24-bit code, 0.501 of a 16-bit one".
-# z is the exact depth in units of a vertex depth, off what the weights move it by, relative to the range of the
-# vertices. barycentric_unorm() cuts the sum to a whole number before the rounding to a code cuts again; one cut
-# is the same (clamp_and_cut.v, nested_cuts).
+# docs/numerics.md, Depth, Barycentric: "The error is at most 0.551 units of a 24-bit code and 0.501 of a
+# 16-bit one".
+# z is the exact depth in units of a vertex depth, off what the weights move it by, relative to the range of
+# the vertices. barycentric_unorm() cuts the sum to a whole number before the rounding to a code cuts again;
+# one cut is the same (arguments.v, nested_cuts).
 
 sum = z + range * off;
 code24 = fixed<0,dn>((sum + offset + 64) * 1b-7);

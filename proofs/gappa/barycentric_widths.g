@@ -1,7 +1,7 @@
 #@ -Eprecision=128
 # Words of barycentric depth that must not overflow: model/halfspace/units/depth_barycentric.hpp and .cpp.
-# rtl/barycentric_sample.sv has the same widths. e and a as scale_weight() gives them, 32 bits; rises of 32 signed
-# bits; mantissas of float32 of 24 bits, weights and sums as normalise() gives them.
+# rtl/barycentric_sample.sv has the same widths. e and a as scale_weight() gives them, 32 bits; rises of 32
+# signed bits; mantissas of float32 of 24 bits, weights and sums as normalise() gives them.
 
 r = fixed<0,dn>((1b63 - 1) / a);
 weight = fixed<0,dn>(e * r * 1b-33);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Proves each theorem with Gappa, and sees that its variants of must_fail.txt are refused. Where Coq and its library
-# for Gappa are (coq, libcoq-gappa), Coq checks each proof and the lemmas of arguments.v.
+# Proves each theorem with Gappa, and sees that its variants of must_fail.txt are refused. Where Coq and its
+# library for Gappa are (coq, libcoq-gappa), Coq checks each proof and the lemmas of arguments.v.
 # usage: check.sh BUILD_FOLDER
 set -u
 build=$(mkdir -p "${1:?usage: check.sh BUILD_FOLDER}" && cd "$1" && pwd) || exit
@@ -25,12 +25,16 @@ refuses() {
   local theorem
   theorem=$(<"$1.g")
   [[ $theorem == *"$2"* ]] &&
-    "${gappa[@]}" <<< "${theorem//"$2"/"$3"}" 2>&1 | grep -q 'some properties were not satisfied\|no contradiction was found'
+    "${gappa[@]}" <<< "${theorem//"$2"/"$3"}" 2>&1 |
+    grep -q 'some properties were not satisfied\|no contradiction was found'
 }
 
 # Identities that Gappa takes as hypotheses become lemmas, by the tactic of algebra.v.
 coq_accepts() {
-  { cat algebra.v && "${gappa[@]}" -Bcoq "$1.g" | sed -E 's/^Hypothesis (a[0-9]+ : .*)$/Lemma \1 algebra. Qed./'; } > "$build/$1.v"
+  {
+    cat algebra.v
+    "${gappa[@]}" -Bcoq "$1.g" | sed -E 's/^Hypothesis (a[0-9]+ : .*)$/Lemma \1 algebra. Qed./'
+  } > "$build/$1.v"
   ! grep -q Hypothesis "$build/$1.v" && coqc "$build/$1.v" > "$build/$1.log" 2>&1
 }
 

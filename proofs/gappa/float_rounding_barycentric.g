@@ -1,8 +1,9 @@
-# Rounding barycentric depth (barycentric_float32.g) to a float32, halves upwards: model/halfspace/units/float_parts.hpp, float_bits().
+# Rounding barycentric depth (barycentric_float32.g) to a float32, halves upwards:
+# model/halfspace/units/float_parts.hpp, float_bits().
 # docs/numerics.md, Depth: "The error is at most 0.52 units of the last place".
-# The exact depth is scaled to z in [1, 2], where a unit of the last place is 2^-23; b is what is rounded. Floats
-# below 1 and above 2 are 2^-24 and 2^-22 apart. The same of a subnormal depth y, whose unit is 1, with 2^-30 more for
-# the cut of terms.
+# The exact depth is scaled to z in [1, 2], where a unit of the last place is 2^-23; b is what is rounded.
+# Floats below 1 and above 2 are 2^-24 and 2^-22 apart. The same of a subnormal depth y, whose unit is 1,
+# with 2^-30 more for the cut of terms.
 
 below = fixed<-24,dn>(b + 1b-25);
 within = fixed<-23,dn>(b + 1b-24);

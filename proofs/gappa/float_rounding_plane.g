@@ -1,7 +1,8 @@
-# Rounding the word of a plane, off by 22.5 2^-63 M (plane_float32.g) where z >= 2^-32 M, to a float32, halves upwards: model/halfspace/units/float_parts.hpp, float_bits().
-# docs/numerics.md, Depth: "the error is at most 0.59 units".
-# The exact depth is scaled to z in [1, 2], where a unit of the last place is 2^-23; b is what is rounded. Floats
-# below 1 and above 2 are 2^-24 and 2^-22 apart. The same of a subnormal depth y, whose unit is 1.
+# Rounding the word of a plane, off by 22.5 2^-63 M (plane_float32.g) where z >= 2^-32 M, to a float32,
+# halves upwards: model/halfspace/units/float_parts.hpp, float_bits().
+# docs/numerics.md, Depth: "the error is at most 0.59 units there".
+# The exact depth is scaled to z in [1, 2], where a unit of the last place is 2^-23; b is what is rounded.
+# Floats below 1 and above 2 are 2^-24 and 2^-22 apart. The same of a subnormal depth y, whose unit is 1.
 
 below = fixed<-24,dn>(b + 1b-25);
 within = fixed<-23,dn>(b + 1b-24);

@@ -1,8 +1,8 @@
 # The quotient of a gradient from a double: model/halfspace/units/depth_plane.cpp, gradient() of 64 bits.
-# docs/numerics.md, Depth, Plane: "a true quotient ... cut towards zero". The double is less than 1 away from the
-# quotient, so cut it is at most 1 off, which the remainder then puts right.
-# n is the magnitude of the numerator, below 2^63; 2A is below 2^51, so exact as a double. An estimate of at most
-# 2^50 means a quotient of at most 2^50 + 1.
+# docs/numerics.md, Depth, Plane: "a true quotient ... cut towards zero". The double is less than 1 away
+# from the quotient, so cut it is at most 1 off, which the remainder then puts right. n is the magnitude of
+# the numerator, below 2^63; 2A is below 2^51, so exact as a double. An estimate of at most 2^50 means a
+# quotient of at most 2^50 + 1.
 
 double_n = float<ieee_64,ne>(n);
 estimate = float<ieee_64,ne>(double_n * 4194304 / area2);

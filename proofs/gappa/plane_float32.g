@@ -1,11 +1,15 @@
 #@ -Eprecision=128
-# Words of a plane on float32 surfaces: model/halfspace/units/float_parts.hpp, word_of_float(), and depth_plane.cpp,
-# set_plane(). In units of 2^-63 M.
+# Words of a plane on float32 surfaces: model/halfspace/units/float_parts.hpp, word_of_float(), and
+# depth_plane.cpp, set_plane(). In units of 2^-63 M.
 # docs/numerics.md, Depth, Plane: "cutting the vertices, less than a unit each, and weights add up to 1".
-# z0 to z2 are the vertex depths, k0 to k2 the weights of a sample, e is the error of the word (plane_word.g). The
-# largest float32 below M is 2^63 - 2^39. An offset is cut to a word, too, and M is above its magnitude.
+# z0 to z2 are the vertex depths, k0 to k2 the weights of a sample, e is the error of the word
+# (plane_word.g). The largest float32 below M is 2^63 - 2^39. An offset is cut to a word, too, and M is
+# above its magnitude.
 
-vertices = k0 * fixed<0,zr>(z0) + k1 * fixed<0,zr>(z1) + (1 - k0 - k1) * fixed<0,zr>(z2);
+cut0 = fixed<0,zr>(z0);
+cut1 = fixed<0,zr>(z1);
+cut2 = fixed<0,zr>(z2);
+vertices = k0 * cut0 + k1 * cut1 + (1 - k0 - k1) * cut2;
 exact = k0 * z0 + k1 * z1 + (1 - k0 - k1) * z2;
 word = vertices + e;
 sum = word + fixed<0,zr>(offset);
@@ -22,6 +26,6 @@ sum = word + fixed<0,zr>(offset);
 
 word - exact -> (vertices - exact) + e;
 vertices - exact -> -1 +
-  (k0 * (fixed<0,zr>(z0) - z0 + 1) + k1 * (fixed<0,zr>(z1) - z1 + 1) + (1 - k0 - k1) * (fixed<0,zr>(z2) - z2 + 1));
+  (k0 * (cut0 - z0 + 1) + k1 * (cut1 - z1 + 1) + (1 - k0 - k1) * (cut2 - z2 + 1));
 vertices - exact -> 1 -
-  (k0 * (1 - (fixed<0,zr>(z0) - z0)) + k1 * (1 - (fixed<0,zr>(z1) - z1)) + (1 - k0 - k1) * (1 - (fixed<0,zr>(z2) - z2)));
+  (k0 * (1 - (cut0 - z0)) + k1 * (1 - (cut1 - z1)) + (1 - k0 - k1) * (1 - (cut2 - z2)));

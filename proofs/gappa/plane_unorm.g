@@ -1,8 +1,8 @@
 # Codes of a plane on unorm surfaces: model/halfspace/units/z_test.cpp, interpolate_plane(), short words.
-# docs/numerics.md, Depth, Plane: "the error is at most 0.5 + 0.17 codes ... 0.501 codes. No word of [0, 1]
+# docs/numerics.md, Depth, Plane: "the error is at most 0.5 + 0.168 codes" ... "No word of [0, 1]
 # overflows".
-# z is the exact depth of the sample in units of a word, with the offset; e is the error of the word and the
-# offset's own rounding is not in it (vertex_depth_unorm.g).
+# z is the exact depth of the sample in units of a word, e the error of the word. What rounding adds to the
+# vertices and the offset is in vertex_depth_unorm.g.
 
 word = z + e;
 code24 = fixed<0,dn>((word + offset + 64) * 1b-7);

@@ -1,8 +1,8 @@
 # The word of a plane: model/halfspace/units/depth_plane.cpp, gradient(), and depth_plane.hpp, tile_plane()
 # and TilePlane::at(). In units of the last place of a word, before any reduction modulo 2^32 or 2^64.
-# docs/numerics.md, Depth, Plane: the table "from, at most".
-# gx and gy are the exact gradients for a sub-pixel, z the word of vertex 0, nx and ny the sub-pixels from it to
-# the first pixel of the 16 x 16 square, x and y the pixels from there, S = 2^s.
+# docs/numerics.md, Depth, Plane: the table of what the error is from.
+# gx and gy are the exact gradients for a sub-pixel, z the word of vertex 0, nx and ny the sub-pixels from
+# it to the first pixel of the 16 x 16 square, x and y the pixels from there, S = 2^s.
 
 dx = fixed<-22,zr>(gx);
 dy = fixed<-22,zr>(gy);

@@ -1,10 +1,10 @@
 # A vertex depth of a unorm surface: model/halfspace/numerics/depth.hpp, vertex_depth_code().
-# docs/numerics.md, Depth: "A vertex depth is within 2^-8 of a unit of the last stored place".
-# In units of a vertex depth, of which a 24-bit code has 2^7: half a unit. depth * one is rounded to a double
-# first, which adds 2^-23 for a double in [0, 1], nothing for a float32, and 2^-8 below 2^15.
+# docs/numerics.md, Depth: "within 2^-8 of a unit of a 24-bit code".
+# In units of a vertex depth, of which a 24-bit code has 2^7: half a unit. depth * one is rounded to a
+# double first, which adds 2^-23 for a double in [0, 1], nothing for a float32, and 2^-8 below 2^15.
 
-one24 = 2147483520;   # (2^24 - 1) 2^7
-one16 = 2147450880;       # (2^16 - 1) 2^15
+one24 = 2147483520; # (2^24 - 1) 2^7
+one16 = 2147450880; # (2^16 - 1) 2^15
 
 f = float<ieee_32,ne>(f_);
 d = float<ieee_64,ne>(d_);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Integers at which a tighter bound than a theorem's, or a wider range, is false: exact, by the units' arithmetic."""
+"""Integers at which a tighter bound than a theorem's, or a wider range, is false."""
 import struct
 from fractions import Fraction
 
@@ -20,7 +20,7 @@ def cut(numerator, denominator):
 
 
 def plane(vertices, pixel, s=8):
-    """The word at a pixel before it wraps, and the exact depth: depth_plane.cpp and .hpp. Area is positive."""
+    """The word at a pixel before it wraps, and the exact depth: depth_plane.cpp and .hpp."""
     (x0, y0, z0), (x1, y1, z1), (x2, y2, z2) = vertices
     area2 = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
     numerator_x = (z1 - z0) * (y2 - y0) + (z2 - z0) * (y0 - y1)
@@ -48,8 +48,8 @@ area2, e = 1126062901166080, 1126057468493823
 off = Fraction(weight(area2, e), 2**30) - Fraction(e, area2)
 assert off < -Fraction(87496, 100000 * 2**29)
 
-# plane_unorm.g: vertex depths between 1 and 2^31 take a short word, and the sum passes its end. These vertices come
-# from float32 clip coordinates with z the float above w, z from -1 to 1, and depth clamp.
+# plane_unorm.g: vertex depths between 1 and 2^31 take a short word, and the sum passes its end. These come
+# from float32 clip coordinates with depth clamp and a clip volume from -w to w; z is the float above w.
 for z, w in ((1.019436001777649, 1.0194358825683594), (1.0172845125198364, 1.0172843933105469)):
     assert round((z / w * 0.5 + 0.5) * ONE24) == 2147483646
 vertices = [(11148, 6784, 2147483646), (12734, 6784, 2147483646), (7628, 15130, 0)]
