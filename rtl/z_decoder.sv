@@ -42,12 +42,14 @@ module z_decoder
     end
   end
 
-  // The plain line, or the samples of the form and size that it has.
+  // The plain line, or the samples of the form and size that it has. Loops, because Verilator's dataflow optimizer makes
+  // of an assignment a sample a chain of concatenations, each of which copies all before it.
   rows_t plain, rows_d;
 
-  for (genvar i = 0; i < Samples; i++) begin : gen_plain
-    localparam int unsigned Half = CodeBits / 2;
-    assign plain[i] = half_i ? code_t'(data_i[i*Half+:Half]) : data_i[i*CodeBits+:CodeBits];
+  always_comb begin
+    for (int unsigned i = 0; i < Samples; i++) begin
+      plain[i] = half_i ? code_t'(data_i[i*(CodeBits/2)+:CodeBits/2]) : data_i[i*CodeBits+:CodeBits];
+    end
   end
 
   if (is_coded(1'b0, 1)) begin : gen_coded
@@ -66,21 +68,24 @@ module z_decoder
           localparam int unsigned Code = code_bits(h);
           localparam int unsigned Plane = plane_bits(h, s);
           localparam int unsigned Ends = ends_bits(h, s) + 1;
-          logic plane, ends;
+          logic               plane, ends;
+          rows_t              this_value;
+          logic [Samples-1:0] this_high;
           assign plane = half_i == 1'(h) && shift_i == coded_shift_t'(s) && !data_i[0];
           assign ends  = half_i == 1'(h) && shift_i == coded_shift_t'(s) && data_i[0];
 
-          for (genvar i = 0; i < Samples; i++) begin : gen_sample
-            logic [Plane-1:0] in_plane;
-            logic [Ends-1:0]  at_end;
-            code_t            offset;
-            assign in_plane      = data_i[1+3*Code+i*Plane+:Plane];
-            assign at_end        = data_i[1+2*Code+i*Ends+:Ends];
-            assign offset        = code_t'(at_end) & code_t'((1 << (Ends - 1)) - 1);
-            assign high[h][s][i] = ends & at_end[Ends-1];
-            assign value[h][s][i] = (code_t'(in_plane) & {CodeBits{plane}})
-                                    | ((offset ^ {CodeBits{at_end[Ends-1]}}) & {CodeBits{ends}});
+          always_comb begin
+            for (int unsigned i = 0; i < Samples; i++) begin
+              automatic logic [Plane-1:0] in_plane = data_i[1+3*Code+i*Plane+:Plane];
+              automatic logic [Ends-1:0]  at_end = data_i[1+2*Code+i*Ends+:Ends];
+              automatic code_t            offset = code_t'(at_end) & code_t'((1 << (Ends - 1)) - 1);
+              this_high[i]  = ends & at_end[Ends-1];
+              this_value[i] = (code_t'(in_plane) & {CodeBits{plane}})
+                              | ((offset ^ {CodeBits{at_end[Ends-1]}}) & {CodeBits{ends}});
+            end
           end
+          assign high[h][s]  = this_high;
+          assign value[h][s] = this_value;
         end else begin : gen_no_size
           assign value[h][s] = '0;
           assign high[h][s]  = '0;
@@ -180,11 +185,12 @@ module z_decoder
       end
     end
 
-    for (genvar i = 0; i < Samples; i++) begin : gen_sum
-      code_t start;
-      assign start     = high_q[3][i] ? high3_q : row3_q[i/TileSize];
-      assign rows_d[i] = (start + rise_x3_q[i%TileSize] + value_q[3][i])
-                         & {{CodeBits/2{~half_q[Last]}}, {CodeBits/2{1'b1}}};
+    always_comb begin
+      for (int unsigned i = 0; i < Samples; i++) begin
+        automatic code_t start = high_q[3][i] ? high3_q : row3_q[i/TileSize];
+        rows_d[i] = (start + rise_x3_q[i%TileSize] + value_q[3][i])
+                    & {{CodeBits/2{~half_q[Last]}}, {CodeBits/2{1'b1}}};
+      end
     end
   end else begin : gen_plain_only
     rows_t rows_q [1:3];

@@ -25,8 +25,11 @@ module z_encoder
   rows_t                   rows;
   rows_t                   rows_q [1:Last];
 
-  for (genvar i = 0; i < Samples; i++) begin : gen_row_order
-    assign rows[i] = codes_i[quad_of(i)][sample_of(i)];
+  // Loops over samples as in z_decoder.
+  always_comb begin
+    for (int unsigned i = 0; i < Samples; i++) begin
+      rows[i] = codes_i[quad_of(i)][sample_of(i)];
+    end
   end
 
   always_ff @(posedge clk_i) begin
@@ -111,15 +114,16 @@ module z_encoder
           logic this_one;
           data_t plane, ends;
 
-          assign plane[3*Code:0] = {dy[Code-1:0], dx[Code-1:0], base[Code-1:0], 1'b0};
-          assign ends[2*Code:0]  = {most[Code-1:0], least[Code-1:0], 1'b1};
-          for (genvar i = 0; i < Samples; i++) begin : gen_sample
-            assign plane[1+3*Code+i*Plane+:Plane] = plane_offset[i][Plane-1:0];
-            assign ends[1+2*Code+i*Ends+:Ends] =
-                Ends'(high[i]) << (Ends - 1) | Ends'(ends_offset[i]);
+          always_comb begin
+            plane           = '0;
+            ends            = '0;
+            plane[3*Code:0] = {dy[Code-1:0], dx[Code-1:0], base[Code-1:0], 1'b0};
+            ends[2*Code:0]  = {most[Code-1:0], least[Code-1:0], 1'b1};
+            for (int unsigned i = 0; i < Samples; i++) begin
+              plane[1+3*Code+i*Plane+:Plane] = plane_offset[i][Plane-1:0];
+              ends[1+2*Code+i*Ends+:Ends]    = Ends'(high[i]) << (Ends - 1) | Ends'(ends_offset[i]);
+            end
           end
-          assign plane[DataBits-1:1+3*Code+Samples*Plane] = '0;
-          assign ends[DataBits-1:1+2*Code+Samples*Ends]   = '0;
 
           assign this_one   = half_q[5] == 1'(h) && shift == coded_shift_t'(s);
           assign line[h][s] = (plane & {DataBits{this_one & plane_fits[s]}})
@@ -144,15 +148,14 @@ module z_encoder
   end
 
   // Or it stays as it is.
-  for (genvar i = 0; i < Samples; i++) begin : gen_whole
-    localparam int unsigned Half = CodeBits / 2;
-    // Sample i of full codes, samples 2 i and 2 i + 1 of halves.
-    if (i < Samples / 2) begin : gen_first
-      assign plain[i*CodeBits+:CodeBits] =
-          half_q[Last] ? {rows_q[Last][2*i+1][Half-1:0], rows_q[Last][2*i][Half-1:0]}
-                       : rows_q[Last][i];
-    end else begin : gen_second
-      assign plain[i*CodeBits+:CodeBits] = half_q[Last] ? '0 : rows_q[Last][i];
+  always_comb begin
+    plain = '0;
+    for (int unsigned i = 0; i < Samples; i++) begin
+      if (half_q[Last]) begin
+        plain[i*(CodeBits/2)+:CodeBits/2] = rows_q[Last][i][CodeBits/2-1:0];
+      end else begin
+        plain[i*CodeBits+:CodeBits] = rows_q[Last][i];
+      end
     end
   end
 

@@ -121,10 +121,11 @@ module z_fill_buffers
     );
   end else begin : gen_plain
     assign filled = fill_end;
-    for (genvar i = 0; i < Samples; i++) begin : gen_quad_order
-      localparam int unsigned Half = CodeBits / 2;
-      assign line[quad_of(i)][sample_of(i)] =
-          form.half ? code_t'(data[i*Half+:Half]) : data[i*CodeBits+:CodeBits];
+    always_comb begin
+      for (int unsigned i = 0; i < Samples; i++) begin
+        line[quad_of(i)][sample_of(i)] =
+            form.half ? code_t'(data[i*(CodeBits/2)+:CodeBits/2]) : data[i*CodeBits+:CodeBits];
+      end
     end
   end
 
