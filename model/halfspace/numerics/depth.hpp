@@ -2,14 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace halfspace {
 
 /// Numbered as in the PTF1 file format.
 enum class DepthFormat : std::uint32_t { kNone = 0, kUnorm16 = 1, kUnorm24 = 2, kUnorm32 = 3, kFloat32 = 4 };
+
+constexpr std::string_view name(DepthFormat format) {
+  constexpr std::array<std::string_view, 5> kNames{"none", "unorm16", "unorm24", "unorm32", "float32"};
+  return kNames[static_cast<std::size_t>(format)];
+}
 
 /// Depth comparison "incoming OP stored", numbered as in Vulkan.
 enum class DepthFunc : std::uint32_t {
