@@ -33,6 +33,10 @@ enum class DepthFunc : std::uint32_t {
 /// Vertex depths of unorm surfaces carry this many bits: the stored code and, below it, a fraction.
 inline constexpr int kVertexDepthBits = 31;
 
+/// Of a unorm triangle with a vertex depth of this or more the plane takes long words: sums of 32-bit words
+/// are off by up to 22 units (docs/numerics.md), and must stay below 2^31. Depth 1 is less.
+inline constexpr std::int64_t kShortWordEnd = (std::int64_t{1} << kVertexDepthBits) - 64;
+
 /// Vertex depths are less than 2^kVertexDepthRange in magnitude: depth clamp lets them leave [0, 1].
 inline constexpr int kVertexDepthRange = 15;
 

@@ -23,13 +23,14 @@ inline double depth_bound(DepthFormat format, DepthInterpolator interpolator, co
       return relative;
     }
     // An offset is a float32, and where terms cancel they keep their own last place.
-    const double absolute = plane.offset() * 0x1p-24 + largest * (is_plane ? 0x1p-58 : 5 * 0x1p-31);
+    const double rounded = plane.offset() == 0 ? 0 : std::max(plane.offset() * 0x1p-24, 0x1p-150);
+    const double absolute = rounded + largest * (is_plane ? 0x1p-58 : 5 * 0x1p-31);
     return (is_plane && plane.offset() == 0 ? relative : relative + absolute / error.unit);
   }
   // Vertices and offset are rounded to half a unit of a vertex depth each.
   const double fraction = std::ldexp(1.0, -vertex_depth_fraction(format));
   const double rounding = 0.5 + (plane.offset() == 0 ? 0.5 : 1) * fraction;
-  const bool beyond = least < 0 || most > 1;
+  const bool beyond = least < 0 || vertex_depth_code(format, most) >= kShortWordEnd;
   if (is_plane) {
     return rounding + (beyond ? largest * 0x1p-56 / error.unit : 23.5 * fraction);
   }

@@ -50,6 +50,9 @@ float steep(DrawList& list) {
                      : unit;
 }
 
+/// Depths that fit the word of a unorm depth, but leave its sums no room.
+float just_above_one(DrawList& list) { return 1 + static_cast<float>(list.between(0, 64)) * 0x1p-23F; }
+
 }  // namespace
 
 Case grid_depth(const Precision& precision, std::uint64_t seed) {
@@ -101,7 +104,7 @@ Case clamp_and_offset(const Precision& precision, std::uint64_t seed) {
     for (int k = 0; k < 4; ++k) {
       std::array<float, 3> z{};
       for (float& value : z) {
-        value = clamp ? any(-24, 20) : steep(list);
+        value = !clamp ? steep(list) : list.one_in(3) ? just_above_one(list) : any(-24, 20);
       }
       list.add(any_triangle(list), z);
     }
