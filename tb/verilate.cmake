@@ -2,7 +2,7 @@
 #
 # halfspace_verilate(TARGET PREFIX TOP OPTIMIZE SOURCES... ARGS... [DEPENDS...] [UNCHECKED]) verilates at build time and
 # adds the model, class PREFIX, to TARGET, compiled with OPTIMIZE (-O2). UNCHECKED: without assertions and waveforms, and as
-# fast as can be: by clang 19 where it is installed, for the processor of this machine.
+# fast as can be: by clang 19 where it is installed, for the processor of this machine; BY_GCC: not by clang.
 # Verilator's own verilate() runs at configure time and compiles the run-time library for each target.
 set(runtime_dir ${VERILATOR_ROOT}/include)
 add_library(halfspace_verilated_runtime STATIC ${runtime_dir}/verilated.cpp ${runtime_dir}/verilated_cov.cpp
@@ -33,7 +33,7 @@ function(halfspace_compile_by_clang target source)
 endfunction()
 
 function(halfspace_verilate target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "UNCHECKED" "PREFIX;TOP;OPTIMIZE" "SOURCES;ARGS;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "UNCHECKED;BY_GCC" "PREFIX;TOP;OPTIMIZE" "SOURCES;ARGS;DEPENDS")
   set(checks --assert --trace-fst --trace-structs)
   if(arg_UNCHECKED)
     set(checks --no-assert)
@@ -48,7 +48,7 @@ function(halfspace_verilate target)
     COMMAND ${CMAKE_COMMAND} -DDIR=${dir} -DALL=${all} -P ${PROJECT_SOURCE_DIR}/tb/one_file.cmake
     DEPENDS ${arg_SOURCES} ${arg_DEPENDS} ${PROJECT_SOURCE_DIR}/tb/one_file.cmake raster_pkg_is_current
     COMMENT "Verilating ${arg_PREFIX}" VERBATIM)
-  if(arg_UNCHECKED AND HALFSPACE_CLANG)
+  if(arg_UNCHECKED AND HALFSPACE_CLANG AND NOT arg_BY_GCC)
     halfspace_compile_by_clang(${target} ${all})
   else()
     set_source_files_properties(${all} PROPERTIES COMPILE_OPTIONS "${halfspace_generated_options};${arg_OPTIMIZE}")
