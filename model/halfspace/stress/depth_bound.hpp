@@ -18,7 +18,7 @@ inline double depth_bound(DepthFormat format, DepthInterpolator interpolator, co
   const double largest = std::ldexp(1.0, std::ilogb(std::max(vertex, plane.offset())) + 1);
   const bool is_plane = interpolator == DepthInterpolator::kPlane;
   if (format == DepthFormat::kFloat32) {
-    const double relative = is_plane ? 0.75 : 0.54;
+    const double relative = is_plane ? 0.59 : 0.52;
     if (least >= 0 && plane.offset() == 0) {
       return relative;
     }
@@ -32,10 +32,10 @@ inline double depth_bound(DepthFormat format, DepthInterpolator interpolator, co
   const double rounding = 0.5 + (plane.offset() == 0 ? 0.5 : 1) * fraction;
   const bool beyond = least < 0 || vertex_depth_code(format, most) >= kShortWordEnd;
   if (is_plane) {
-    return rounding + (beyond ? largest * 0x1p-56 / error.unit : 23.5 * fraction);
+    return rounding + (beyond ? largest * 0x1p-56 / error.unit : 21.5 * fraction);
   }
   const double cut = beyond ? 2 * std::max(largest, 1.0) * fraction : 0;
-  return rounding + (most - least) * 0x1p-28 / error.unit + cut;
+  return rounding + (most - least) * 0.82 * 0x1p-28 / error.unit + cut;
 }
 
 }  // namespace halfspace::stress
