@@ -167,7 +167,7 @@ module setup_depth
       scale.exponent = exponent_t'({1'b0, from.field}) - exponent_t'(126);
     end else begin
       for (int unsigned i = 0; i < 3; i++) begin
-        scale.beyond |= from.z[i][VertexDepthBits-1:UnitBits] != '0;
+        scale.beyond |= from.z[i][VertexDepthBits-1:UnitBits] != '0 || &from.z[i][UnitBits-1:6];
       end
       for (int unsigned i = UnitBits; i < VertexDepthBits; i++) begin
         if (magnitude[i]) begin

@@ -48,8 +48,8 @@ area2, e = 1126062901166080, 1126057468493823
 off = Fraction(weight(area2, e), 2**30) - Fraction(e, area2)
 assert off < -Fraction(87496, 100000 * 2**29)
 
-# plane_unorm.g: vertex depths between 1 and 2^31 take a short word, and the sum passes its end. These come
-# from float32 clip coordinates with depth clamp and a clip volume from -w to w; z is the float above w.
+# plane_unorm.g: with vertex depths between kShortWordEnd and 2^31 the sum passes the end of a short word. These
+# come from float32 clip coordinates with depth clamp and a clip volume from -w to w; z is the float above w.
 for z, w in ((1.019436001777649, 1.0194358825683594), (1.0172845125198364, 1.0172843933105469)):
     assert round((z / w * 0.5 + 0.5) * ONE24) == 2147483646
 vertices = [(11148, 6784, 2147483646), (12734, 6784, 2147483646), (7628, 15130, 0)]

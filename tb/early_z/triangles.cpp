@@ -76,6 +76,12 @@ ScreenTriangle random_screen_triangle(const Widths& widths, DepthFormat format, 
       v.z = std::clamp<std::int64_t>(v.z + random.range(-2, 2), 0, vertex_depth_code(format, 1));
     }
   }
+  if (beyond && (format == DepthFormat::kUnorm16 || format == DepthFormat::kUnorm24) &&
+      random.below(4) == 0) {
+    for (ScreenVertex& v : triangle.v) {  // about the end of short words, where sums have no room
+      v.z = random.below(3) == 0 ? v.z : kShortWordEnd + random.range(-64, 127);
+    }
+  }
   if (format != DepthFormat::kNone && random.below(3) == 0) {
     const double sign = random.below(2) == 0 ? 1 : -1;
     triangle.offset = vertex_depth_code(

@@ -185,14 +185,25 @@ void add_depths(std::vector<SetupJob>& jobs, const Band& band) {
 }
 
 /// A vertex far beyond the farthest code, at every power of two: a code that is cut too short is near again.
+/// And at the end of what short words take.
 void add_far_depths(std::vector<SetupJob>& jobs, const Band& band) {
+  std::vector<std::int64_t> depths;
+  for (int bit = kVertexDepthBits; bit < kVertexDepthBits + kVertexDepthRange; ++bit) {
+    depths.push_back(std::int64_t{1} << bit);
+  }
+  for (const std::int64_t more : {-65, -64, -1, 0, 1, 31, 63}) {
+    depths.push_back(kShortWordEnd + more);
+  }
   for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24}) {
-    for (int bit = kVertexDepthBits; bit < kVertexDepthBits + kVertexDepthRange; ++bit) {
-      SetupJob job;
-      job.state = open_state(static_cast<std::uint8_t>(format));
-      set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
-      job.triangle.z = {0, std::int64_t{1} << bit, 0};
-      jobs.push_back(job);
+    for (const std::int64_t depth : depths) {
+      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
+        SetupJob job;
+        job.state = open_state(static_cast<std::uint8_t>(format));
+        set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
+        job.triangle.z = {};
+        job.triangle.z[vertex] = depth;
+        jobs.push_back(job);
+      }
     }
   }
 }

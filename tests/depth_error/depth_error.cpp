@@ -11,14 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "exact_plane.hpp"
 #include "families.hpp"
 #include "halfspace/scene/front_end.hpp"
+#include "halfspace/stress/depth_bound.hpp"
+#include "halfspace/stress/exact_plane.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/z_test.hpp"
 
 namespace halfspace::testing {
 namespace {
+
+using stress::ExactPlane;
 
 constexpr int kTile = 16;  // all sizes of tiles have the same depths
 
@@ -33,33 +36,6 @@ struct Method {
   DepthFormat format;
   DepthInterpolator interpolator;
 };
-
-/// docs/numerics.md, in units of the last place.
-double bound(const Method& method, const Sample& sample, const ExactPlane& plane,
-             const ExactPlane::Error& error) {
-  const auto [least, most] = std::minmax({sample.z[0], sample.z[1], sample.z[2]});
-  const double vertex = std::max(std::abs(least), std::abs(most));
-  const double largest = std::ldexp(1.0, std::ilogb(std::max(vertex, plane.offset())) + 1);
-  const bool is_plane = method.interpolator == DepthInterpolator::kPlane;
-  if (method.format == DepthFormat::kFloat32) {
-    const double relative = is_plane ? 0.75 : 0.54;
-    if (least >= 0 && plane.offset() == 0) {
-      return relative;
-    }
-    // An offset is a float32, and where terms cancel they keep their own last place.
-    const double absolute = plane.offset() * 0x1p-24 + largest * (is_plane ? 0x1p-58 : 5 * 0x1p-31);
-    return (is_plane && plane.offset() == 0 ? relative : relative + absolute / error.unit);
-  }
-  // Vertices and offset are rounded to half a unit of a vertex depth each.
-  const double fraction = std::ldexp(1.0, -vertex_depth_fraction(method.format));
-  const double rounding = 0.5 + (plane.offset() == 0 ? 0.5 : 1) * fraction;
-  const bool beyond = least < 0 || most > 1;
-  if (is_plane) {
-    return rounding + (beyond ? largest * 0x1p-56 / error.unit : 23.5 * fraction);
-  }
-  const double cut = beyond ? 2 * std::max(largest, 1.0) * fraction : 0;
-  return rounding + (most - least) * 0x1p-28 / error.unit + cut;
-}
 
 /// Draws of one family on one target, and what their fragments' depths are off.
 class Measurement {
@@ -79,7 +55,7 @@ class Measurement {
   void run(std::uint64_t samples, Worst& worst) {
     for (const std::uint64_t end = worst.samples + samples; worst.samples < end;) {
       const Sample sample = source_.next();
-      const ExactPlane plane(sample, method_.format);
+      const ExactPlane plane(sample.grid(), sample.z, sample.state, method_.format, 8);
       if (plane.has_area()) {
         ++worst.triangles;
         draw(sample, plane, worst);
@@ -161,7 +137,8 @@ class Measurement {
         const int y = y0 + bit / kTile;
         const ExactPlane::Error error = plane.error(std::int64_t{x} * 256 + 128, std::int64_t{y} * 256 + 128,
                                                     codes[static_cast<std::size_t>(bit)]);
-        const double share = error.ulps / bound(method_, sample, plane, error);
+        const double share =
+            error.ulps / stress::depth_bound(method_.format, method_.interpolator, sample.z, plane, error);
         ++worst.samples;
         worst.ulps = std::max(worst.ulps, error.ulps);
         if (share > worst.share) {

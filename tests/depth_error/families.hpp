@@ -10,6 +10,7 @@
 
 #include "../frames.hpp"
 #include "../property/random.hpp"
+#include "halfspace/reference/exact_triangle.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace::testing {
@@ -37,6 +38,10 @@ struct Sample {
   std::array<std::array<std::int64_t, 2>, 3> xy;  ///< in sub-pixels
   std::array<float, 3> z;
   Command state;
+
+  [[nodiscard]] reference::GridTriangle grid() const {
+    return {reference::GridPoint{xy[0][0], xy[0][1]}, {xy[1][0], xy[1][1]}, {xy[2][0], xy[2][1]}};
+  }
 };
 
 class FamilySource {

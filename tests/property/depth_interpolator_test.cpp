@@ -219,6 +219,36 @@ TEST_CASE("barycentric depth just below a power of two does not wrap") {
   REQUIRE(ulps_off(state.depth_format, barycentric_float(triangle.depth, e(1), e(2)), exact) <= 1);
 }
 
+TEST_CASE("sums of plane depth about the end of a short word do not wrap") {
+  const ScreenTriangle witness{{ScreenVertex{11148, 6784, 2147483646}, ScreenVertex{12734, 6784, 2147483646},
+                                ScreenVertex{7628, 15130, 0}},
+                               0};
+  SetupState state = open_state(kSize);
+  state.limits.most = 0xFFFFFF;
+  SetupTriangle triangle;
+  REQUIRE(setup(witness, state, triangle) == SetupVerdict::kDrawn);
+  CHECK(code_at(triangle, plane_state(DepthFormat::kUnorm24, 8), 46, 26) == 0xFFFFFF);
+
+  TriangleSource source(seed(), kSize, 8);
+  CAPTURE(seed());
+  int drawn = 0;
+  while (drawn < 2000) {
+    ScreenTriangle t = source.next();
+    for (ScreenVertex& v : t.v) {  // in the last code's upper half, or beyond 1: the last code
+      v.z = kShortWordEnd + source.integer(-64, 127);
+    }
+    if (setup(t, state, triangle) == SetupVerdict::kDrawn) {
+      ++drawn;
+      const PixelRect& box = triangle.bounds;
+      const int x = source.integer(box.x_first, box.x_last);
+      const int y = source.integer(box.y_first, box.y_last);
+      if (reference::covers(grid(t), reference::pixel_centre(x, y, 8), reference::TieRule::kTopLeft)) {
+        REQUIRE(code_at(triangle, plane_state(DepthFormat::kUnorm24, 8), x, y) == 0xFFFFFF);
+      }
+    }
+  }
+}
+
 TEST_CASE("the plane is exact where its gradients are whole") {
   SetupState state = open_state(kSize);
   state.interpolator = DepthInterpolator::kPlane;

@@ -15,6 +15,7 @@ void add_diff_command(CLI::App& app, int& status);
 void add_record_command(CLI::App& app, int& status);
 void add_retime_command(CLI::App& app, int& status);
 void add_ledger_command(CLI::App& app, int& status);
+void add_stress_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
 
 }  // namespace halfspace

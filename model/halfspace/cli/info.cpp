@@ -15,7 +15,6 @@ struct InfoOptions {
   bool commands = false;
 };
 
-constexpr const char* kFormatNames[] = {"none", "unorm16", "unorm24", "unorm32", "float32"};
 constexpr const char* kFuncNames[] = {"never",   "less",     "equal",  "lequal",
                                       "greater", "notequal", "gequal", "always"};
 
@@ -76,9 +75,8 @@ void info(const InfoOptions& options) {
     const Target& t = frame.targets[i];
     const std::string surface =
         t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
-    fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height,
-               kFormatNames[static_cast<std::size_t>(t.depth_format)], surface, t.color_count,
-               t.presented ? " presented" : "");
+    fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height, name(t.depth_format),
+               surface, t.color_count, t.presented ? " presented" : "");
   }
   for (std::size_t i = 0; options.commands && i < frame.commands.size(); ++i) {
     print_command(i, frame.commands[i]);

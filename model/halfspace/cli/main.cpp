@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
     halfspace::add_record_command(app, status);
     halfspace::add_retime_command(app, status);
     halfspace::add_ledger_command(app, status);
+    halfspace::add_stress_command(app, status);
     halfspace::add_bench_command(app, status);
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {  // after parse(), which names a word that is no subcommand

@@ -72,14 +72,15 @@ class VertexTransform {
     const Real real;
     const Narrow narrow;
     const RealVector zero = hn::Zero(real);
-    // not 0 where one is infinite or no number
+    // no number where one is infinite or no number itself
     const auto nothing =
         hn::Add(hn::Add(hn::Sub(xs, xs), hn::Sub(ys, ys)), hn::Add(hn::Sub(zs, zs), hn::Sub(ws, ws)));
     const RealVector x = hn::PromoteTo(real, xs);
     const RealVector y = hn::PromoteTo(real, ys);
     const RealVector z = hn::PromoteTo(real, zs);
     const RealVector w = hn::PromoteTo(real, ws);
-    const auto not_finite = hn::Ne(hn::PromoteTo(real, nothing), zero);
+    // Not of Eq: what Ne says of no number differs between targets.
+    const auto not_finite = hn::Not(hn::Eq(hn::PromoteTo(real, nothing), zero));
     auto odd = hn::Not(hn::Gt(w, zero));
     // As FrontEnd has the planes, in its order and with its rounding.
     hn::Mask<Real> outside[6];

@@ -2,14 +2,21 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 namespace halfspace {
 
 /// Numbered as in the PTF1 file format.
 enum class DepthFormat : std::uint32_t { kNone = 0, kUnorm16 = 1, kUnorm24 = 2, kUnorm32 = 3, kFloat32 = 4 };
+
+constexpr std::string_view name(DepthFormat format) {
+  constexpr std::array<std::string_view, 5> kNames{"none", "unorm16", "unorm24", "unorm32", "float32"};
+  return kNames[static_cast<std::size_t>(format)];
+}
 
 /// Depth comparison "incoming OP stored", numbered as in Vulkan.
 enum class DepthFunc : std::uint32_t {
@@ -25,6 +32,10 @@ enum class DepthFunc : std::uint32_t {
 
 /// Vertex depths of unorm surfaces carry this many bits: the stored code and, below it, a fraction.
 inline constexpr int kVertexDepthBits = 31;
+
+/// Of a unorm triangle with a vertex depth of this or more the plane takes long words: sums of 32-bit words
+/// are off by up to 22 units (docs/numerics.md), and must stay below 2^31. Depth 1 is less.
+inline constexpr std::int64_t kShortWordEnd = (std::int64_t{1} << kVertexDepthBits) - 64;
 
 /// Vertex depths are less than 2^kVertexDepthRange in magnitude: depth clamp lets them leave [0, 1].
 inline constexpr int kVertexDepthRange = 15;

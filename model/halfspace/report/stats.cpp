@@ -27,19 +27,6 @@ Json counters_json(const Counters& counters) {
   return json;
 }
 
-const char* format_name(DepthFormat format) {
-  switch (format) {
-    case DepthFormat::kUnorm16:
-      return "unorm16";
-    case DepthFormat::kUnorm24:
-      return "unorm24";
-    case DepthFormat::kFloat32:
-      return "float32";
-    default:
-      return "none";
-  }
-}
-
 double ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -192,7 +179,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
     json["surfaces"].push_back({{"surface", i},
-                                {"format", format_name(surface.format)},
+                                {"format", name(surface.format)},
                                 {"width", surface.codes.width()},
                                 {"height", surface.codes.height()},
                                 {"counters", counters_json(surface.counters)}});

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,14 @@ enum class Flag : std::uint32_t {
   kClearStencil = 1u << 19,
   kBottomLeftRule = 1u << 20,
 };
+
+constexpr std::uint32_t bits(std::initializer_list<Flag> flags) {
+  std::uint32_t all = 0;
+  for (const Flag flag : flags) {
+    all |= static_cast<std::uint32_t>(flag);
+  }
+  return all;
+}
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kMaxTargetSize = 16384;  ///< pixels on a side

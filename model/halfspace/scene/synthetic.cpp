@@ -393,14 +393,6 @@ constexpr std::array<Kind, kInfos.size()> kKinds{{
     {kFullHd, mesh_crowd},
 }};
 
-std::uint32_t bits(std::initializer_list<Flag> flags) {
-  std::uint32_t all = 0;
-  for (const Flag flag : flags) {
-    all |= static_cast<std::uint32_t>(flag);
-  }
-  return all;
-}
-
 Frame to_frame(const SyntheticInfo& info, Size size, const Triangles& triangles, DepthFormat depth) {
   const auto width = static_cast<float>(size.width);
   const auto height = static_cast<float>(size.height);

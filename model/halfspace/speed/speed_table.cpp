@@ -12,10 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormatNames[] = {"none", "unorm16", "unorm24", "unorm32", "float32"};
-
-const char* format_name(DepthFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
-
 /// Three digits or so.
 std::string digits(double value) {
   const double size = std::abs(value);
@@ -55,8 +51,8 @@ void for_each_pair(const SpeedTable& table, Visit&& visit) {
 }
 
 std::string markdown_row(const SpeedTable& table, const SpeedRow& row) {
-  std::string text = fmt::format("| {} | {} | {} | {} | {} |", row.name, format_name(row.depth),
-                                 row.triangles, row.fragments, row.runs[0].survivors);
+  std::string text = fmt::format("| {} | {} | {} | {} | {} |", row.name, name(row.depth), row.triangles,
+                                 row.fragments, row.runs[0].survivors);
   for (std::size_t i = 0; i < table.contenders.size(); ++i) {
     if (!table.contenders[i].absent) {
       text += fmt::format(" {} |", cell(spread(row.runs[i].milliseconds)));
@@ -151,8 +147,7 @@ std::string speed_csv(const SpeedTable& table) {
   });
   text += ",mquads_per_second,ns_per_triangle\n";
   for (const SpeedRow& row : table.rows) {
-    text += fmt::format("{},{},{},{},{}", row.name, format_name(row.depth), row.triangles, row.fragments,
-                        row.quads);
+    text += fmt::format("{},{},{},{},{}", row.name, name(row.depth), row.triangles, row.fragments, row.quads);
     const auto add = [&](const Spread& s) {
       text += fmt::format(",{:.4f},{:.4f},{:.4f}", s.median, s.least, s.most);
     };
@@ -185,7 +180,7 @@ std::string speed_json(const SpeedTable& table) {
   json["workloads"] = Json::array();
   for (const SpeedRow& row : table.rows) {
     Json& entry = json["workloads"].emplace_back(Json{{"name", row.name},
-                                                      {"depth", format_name(row.depth)},
+                                                      {"depth", name(row.depth)},
                                                       {"triangles", row.triangles},
                                                       {"fragments", row.fragments},
                                                       {"quads", row.quads}});

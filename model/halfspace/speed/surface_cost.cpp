@@ -14,14 +14,6 @@
 namespace halfspace {
 namespace {
 
-std::uint32_t bits(std::initializer_list<Flag> flags) {
-  std::uint32_t all = 0;
-  for (const Flag flag : flags) {
-    all |= static_cast<std::uint32_t>(flag);
-  }
-  return all;
-}
-
 /// A frame with a draw, which triangles are added to.
 class DrawnFrame {
  public:

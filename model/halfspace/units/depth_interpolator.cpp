@@ -12,7 +12,7 @@ namespace {
 
 void set_unorm_range(std::int64_t offset, DepthFormat format, const DepthLimits& limits, DepthEquation& out) {
   const auto [z_min, z_max] = std::minmax({out.z[0], out.z[1], out.z[2]});
-  out.beyond = z_min < 0 || z_max >> kVertexDepthBits != 0;
+  out.beyond = z_min < 0 || z_max >= kShortWordEnd;
   const auto magnitude = [](std::int64_t z) { return static_cast<std::uint64_t>(z < 0 ? -z : z); };
   const int width = std::bit_width(magnitude(z_min) | magnitude(z_max) | magnitude(offset));
   out.exponent = static_cast<std::int16_t>(std::max(width - kVertexDepthBits, 0));

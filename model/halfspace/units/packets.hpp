@@ -73,7 +73,7 @@ struct PlaneEquation {
 struct DepthEquation {
   std::array<std::int64_t, 3> z{};     ///< vertex depths
   std::array<std::uint8_t, 3> bias{};  ///< 1 where the fill rule lowered c of the edge
-  bool beyond = false;                 ///< unorm: a vertex depth is outside [0, 1]
+  bool beyond = false;                 ///< unorm: a vertex depth is below 0, or at kShortWordEnd or above
   std::int16_t exponent = 0;           ///< 2^exponent is above every vertex depth and the offset
   std::int64_t area2 = 0;              ///< 2A, the sum of the three unbiased E
   std::int64_t offset = 0;     ///< unorm: as in ScreenTriangle; float32: a word, see units/depth_plane.hpp

@@ -1,0 +1,223 @@
+/// halfspace stress: a campaign that is hard on arithmetic, judged by exact arithmetic.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/options.hpp"
+#include "halfspace/cli/progress.hpp"
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/stress/campaign.hpp"
+#include "halfspace/stress/campaign_report.hpp"
+#include "halfspace/stress/engine_subject.hpp"
+#include "halfspace/stress/exhaustive.hpp"
+
+namespace halfspace {
+namespace {
+
+struct StressCommand {
+  MachineOptions machine;
+  CoreOption core;
+  RtlOptions rtl;
+  std::string fidelity = "functional";
+  std::vector<std::string> families;
+  std::string depth = "unorm24";
+  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> samples;
+  std::optional<double> seconds;
+  std::optional<std::uint64_t> cases;
+  std::optional<double> depth_bound;
+  std::string engine;
+  std::string write;
+  std::string out;
+  bool exhaustive = false;
+  bool units = false;
+  std::uint32_t every = 1;
+  int threads = 1;
+};
+
+DepthFormat format_of(const std::string& text) {
+  return text == "unorm16"   ? DepthFormat::kUnorm16
+         : text == "unorm24" ? DepthFormat::kUnorm24
+                             : DepthFormat::kFloat32;
+}
+
+stress::CampaignPlan plan_of(const StressCommand& command, const Config& config) {
+  stress::CampaignPlan plan{
+      .precision = {.sub_pixel_bits = config.raster.sub_pixel_bits, .format = format_of(command.depth)},
+      .depth = {.interpolator = config.depth.interpolator, .bound = command.depth_bound},
+      .seed = command.seed,
+      .folder = command.out};
+  for (const stress::Family& family : stress::families()) {
+    const auto& wanted = command.families;
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), family.name) != wanted.end()) {
+      plan.families.push_back(&family);
+    }
+  }
+  if (command.samples) {
+    plan.samples = *command.samples;
+  }
+  if (command.cases) {
+    plan.cases = *command.cases;
+  }
+  if (command.seconds || !(command.samples || command.cases)) {
+    plan.seconds = command.seconds.value_or(10);
+  }
+  return plan;
+}
+
+/// Of --engine, or else the engine of the fidelity. Throws InputError.
+std::unique_ptr<stress::Subject> make_subject(const StressCommand& command, Fidelity fidelity,
+                                              const Config& config, const RunOptions& options) {
+  if (command.engine.empty()) {
+    return stress::engine_subject(fidelity, config, options);
+  }
+  const std::size_t colon = command.engine.find(':');
+  const std::string kind = command.engine.substr(0, colon);
+  const std::string path = colon == std::string::npos ? "" : command.engine.substr(colon + 1);
+  if (kind == "library" && !path.empty()) {
+    return stress::library_subject(path, config.raster.sub_pixel_bits);
+  }
+  if (kind == "files" && !path.empty()) {
+    return stress::files_subject(path);
+  }
+  throw InputError(fmt::format("--engine is '{}'; it must be library:FILE or files:DIR", command.engine));
+}
+
+/// All triangles of a small grid. Returns the exit status.
+int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Config& config,
+                       const RunOptions& options) {
+  ProgressBar bar("exhaustive");
+  const auto progress = [&](std::size_t done) { bar.update(done, stress::kGridPoints / command.every); };
+  stress::ExhaustiveTally tally;
+  if (command.units) {
+    tally = stress::check_units(command.every, command.threads, progress);
+  } else {
+    if (config.raster.sub_pixel_bits != stress::kGridBits) {
+      throw InputError(fmt::format("raster.sub_pixel_bits is {}; of --exhaustive it must be {}",
+                                   config.raster.sub_pixel_bits, stress::kGridBits));
+    }
+    tally = stress::check_subject(*make_subject(command, fidelity, config, options), command.every, progress);
+  }
+  fmt::print("{} triangles, {} of them without area; {} samples: {} wrong\n", tally.triangles,
+             tally.without_area, tally.samples, tally.wrong);
+  if (command.units) {
+    fmt::print(
+        "{} quads wrong; {} tiles decided, {} unsound; {} edges, {} samples on them, {} not owned once\n",
+        tally.wrong_quads, tally.tiles, tally.unsound, tally.edges, tally.on_edges, tally.ownerless);
+  }
+  return tally.errors() == 0 ? 0 : 1;
+}
+
+/// Returns the exit status.
+int stress_command(const StressCommand& command) {
+  const Fidelity fidelity = fidelity_of(command.fidelity);
+  require(fidelity, command.core.core() != Core::kAuto, "--core", &FidelityInfo::core);
+  RunOptions options;
+  command.rtl.apply(options);
+  options.watch.core = command.core.core();
+  const Config config = command.machine.config();
+  if (command.exhaustive || command.units) {
+    return exhaustive_command(command, fidelity, config, options);
+  }
+  const stress::CampaignPlan plan = plan_of(command, config);
+  if (!command.write.empty()) {
+    stress::write_cases(plan.families, plan.precision, plan.seed, command.cases.value_or(1), command.write);
+    fmt::print("cases in {}\n", command.write);
+    return 0;
+  }
+  const std::unique_ptr<stress::Subject> subject = make_subject(command, fidelity, config, options);
+  ProgressBar bar("stress");
+  const double most_samples = command.samples ? static_cast<double>(plan.samples) : 0;
+  double start = -1;
+  const stress::CampaignState state =
+      stress::run_campaign(plan, *subject, [&](const stress::CampaignState& now) {
+        start = start < 0 ? now.seconds : start;
+        const double by_samples =
+            most_samples == 0 ? 0 : static_cast<double>(now.sum().samples) / most_samples;
+        const double done = std::max(by_samples, (now.seconds - start) / plan.seconds);
+        bar.update(static_cast<std::size_t>(std::min(done, 1.0) * 1000), 1000);
+      });
+  if (!command.out.empty()) {
+    stress::write_report(plan, state, *subject);
+  }
+  fmt::print("{}", stress::report_page(plan, state));
+  if (!command.out.empty()) {
+    fmt::print("\nresults in {}\n", command.out);
+  }
+  return state.sum().errors() == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_stress_command(CLI::App& app, int& status) {
+  auto options = std::make_shared<StressCommand>();
+  CLI::App* command = app.add_subcommand("stress",
+                                         "draw what is hard on arithmetic, and judge it by exact arithmetic; "
+                                         "exit status 1 where a law is broken");
+  options->machine.add_to(*command);
+  std::vector<std::string> fidelities;
+  for (const FidelityInfo& fidelity : kFidelityInfo) {
+    fidelities.emplace_back(fidelity.name);
+  }
+  command->add_option("--fidelity", options->fidelity, "selects the engine")
+      ->check(CLI::IsMember(fidelities))
+      ->capture_default_str();
+  options->core.add_to(*command);
+  command
+      ->add_option("--engine", options->engine,
+                   "somebody else's: library:FILE, which has the function of halfspace_rasterizer.h, or "
+                   "files:DIR, results for the frames of --write")
+      ->type_name("KIND:PATH");
+  command->add_option("--write", options->write, "instead: write the first --cases of each family as frames")
+      ->type_name("DIR");
+  command
+      ->add_option(
+          "--depth-bound", options->depth_bound,
+          "how far a depth may be off, in units of the last place (default: the bound of the interpolator)")
+      ->check(CLI::PositiveNumber);
+  options->rtl.add_to(*command);
+  std::vector<std::string> names;
+  for (const stress::Family& family : stress::families()) {
+    names.emplace_back(family.name);
+  }
+  command->add_option("--family", options->families, "families of cases (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  command->add_option("--depth", options->depth, "depth format")
+      ->check(CLI::IsMember({"unorm16", "unorm24", "float32"}))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the cases")->capture_default_str();
+  command->add_option("--samples", options->samples, "samples to judge, in all sittings");
+  command->add_option("--cases", options->cases, "cases of each family, in all sittings");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "time of this sitting (default: 10, or what --samples and --cases take)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--out", options->out,
+          "folder for the report, its cases, and the state: the same command goes on where it was cut off")
+      ->type_name("DIR");
+  CLI::Option* exhaustive = command->add_flag("--exhaustive", options->exhaustive,
+                                              "instead: all triangles with vertices on the 1/16 grid of 2x2 "
+                                              "pixels, on the engine (4 sub-pixel bits)");
+  command
+      ->add_flag(
+          "--exhaustive-units", options->units,
+          "instead: the same through the units alone, in both windings, at two places, with all tile sizes")
+      ->excludes(exhaustive);
+  command->add_option("--every", options->every, "of --exhaustive: of the least vertices only one of so many")
+      ->check(CLI::Range(1U, stress::kGridPoints))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "of --exhaustive-units")
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
+  command->callback([options, &status] { status = stress_command(*options); });
+}
+
+}  // namespace halfspace

@@ -1,0 +1,23 @@
+/// What a campaign leaves for people: a page, and each case to look at as a frame with a picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "halfspace/report/pictures.hpp"
+#include "halfspace/stress/campaign.hpp"
+
+namespace halfspace::stress {
+
+/// The page, in Markdown.
+std::string report_page(const CampaignPlan& plan, const CampaignState& state);
+
+/// Pixels as squares: grey where the fragments are as expected, red where some are missing, blue where there
+/// are too many, white where nothing is said. Brighter with more fragments.
+halfspace::Picture coverage_picture(const Case& made, const Precision& precision, const Picture& picture);
+
+/// report.md, and in the folder `cases` NAME.ptf.xz and NAME.png for each case that is worth a look. Throws
+/// InputError.
+void write_report(const CampaignPlan& plan, const CampaignState& state, Subject& subject);
+
+}  // namespace halfspace::stress

@@ -1,0 +1,52 @@
+/// A case of the stress campaign: a frame, and what must hold of its picture, whoever draws it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "halfspace/reference/exact_triangle.hpp"
+#include "halfspace/scene/frame.hpp"
+
+namespace halfspace::stress {
+
+/// What cases are made for.
+struct Precision {
+  int sub_pixel_bits = 8;
+  DepthFormat format = DepthFormat::kUnorm24;
+};
+
+/// A triangle whose window coordinates are on the sub-pixel grid, and arrive there unrounded: w is 1, and the
+/// target's side a power of two. So the definition says which samples it covers.
+struct KnownTriangle {
+  reference::GridTriangle grid;
+  std::array<float, 3> z{};
+  std::uint32_t command = 0;  ///< in Frame::commands: the state of its draw
+  std::uint32_t draw = 0;     ///< of the frame's draws, clears not counted
+  std::uint32_t index = 0;    ///< in the draw
+};
+
+/// A second frame that must give the same picture as the first, moved by whole pixels.
+struct Twin {
+  Frame frame{};
+  std::int32_t dx = 0;  ///< pixel (x, y) of the first is pixel (x + dx, y + dy) of the twin
+  std::int32_t dy = 0;
+  bool same_depth = true;  ///< where nothing moves depth is the same too
+};
+
+/// Counts of a pixel that rounding may decide.
+inline constexpr std::int32_t kUncertain = -1;
+
+/// The frame has one target and one depth surface. What is empty is no law of the case.
+struct Case {
+  Frame frame{};
+  std::vector<KnownTriangle> triangles{};  ///< all of the frame, in order: coverage by definition
+  bool depth = false;      ///< every draw passes and writes: a pixel has the depth of the last that covers it
+  bool partition = false;  ///< the triangles tile the target: each pixel exactly once
+  std::vector<std::int32_t> fragments{};  ///< of each pixel, row by row, or kUncertain
+  std::vector<std::int32_t> survivors{};  ///< the same, behind the depth test
+  std::optional<Twin> twin{};
+};
+
+}  // namespace halfspace::stress

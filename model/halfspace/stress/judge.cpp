@@ -1,0 +1,178 @@
+#include "halfspace/stress/judge.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "halfspace/stress/depth_bound.hpp"
+#include "halfspace/stress/exact_plane.hpp"
+
+namespace halfspace::stress {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+reference::TieRule tie_rule(const Frame& frame, const KnownTriangle& triangle) {
+  return frame.commands[triangle.command].has(Flag::kBottomLeftRule) ? reference::TieRule::kBottomLeft
+                                                                     : reference::TieRule::kTopLeft;
+}
+
+/// What the definition says of the known triangles.
+struct Definition {
+  std::uint64_t samples = 0;              ///< looked at: all that lie in the box of a triangle
+  std::vector<std::int32_t> fragments{};  ///< of each pixel
+  std::vector<std::uint32_t> last{};      ///< of the triangles that cover it, or kNone
+};
+
+Definition define(const Case& made, const Precision& precision) {
+  const Target& target = made.frame.targets.front();
+  const std::size_t pixels = std::size_t{target.width} * target.height;
+  Definition result{.fragments = std::vector<std::int32_t>(pixels, 0),
+                    .last = std::vector<std::uint32_t>(pixels, kNone)};
+  for (std::uint32_t i = 0; i < made.triangles.size(); ++i) {
+    const KnownTriangle& triangle = made.triangles[i];
+    const reference::GridTriangle& v = triangle.grid;
+    const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
+    const auto [top, bottom] = std::minmax({v[0].y, v[1].y, v[2].y});
+    const auto pixel = [&](std::int64_t position, std::uint32_t size) {
+      return std::clamp<std::int64_t>(position >> precision.sub_pixel_bits, 0, std::int64_t{size} - 1);
+    };
+    const reference::TieRule rule = tie_rule(made.frame, triangle);
+    for (std::int64_t y = pixel(top, target.height); y <= pixel(bottom, target.height); ++y) {
+      for (std::int64_t x = pixel(left, target.width); x <= pixel(right, target.width); ++x) {
+        ++result.samples;
+        if (reference::covers(v, reference::pixel_centre(x, y, precision.sub_pixel_bits), rule)) {
+          const auto at = static_cast<std::size_t>(y * target.width + x);
+          ++result.fragments[at];
+          result.last[at] = i;
+        }
+      }
+    }
+  }
+  return result;
+}
+
+void count(std::int32_t expected, std::uint32_t got, Tally& tally) {
+  const std::int64_t more = std::int64_t{got} - expected;
+  (more > 0 ? tally.extra : tally.missing) += static_cast<std::uint64_t>(std::abs(more));
+}
+
+void judge_depth(const Case& made, const Precision& precision, const DepthLaw& law,
+                 const Definition& definition, const Picture& picture, Tally& tally) {
+  std::map<std::uint32_t, ExactPlane> planes;
+  for (std::uint32_t at = 0; at < picture.codes.size(); ++at) {
+    const std::uint32_t last = definition.last[at];
+    if (last == kNone) {
+      continue;
+    }
+    const KnownTriangle& triangle = made.triangles[last];
+    const ExactPlane& plane =
+        planes
+            .try_emplace(last, triangle.grid, triangle.z, made.frame.commands[triangle.command],
+                         precision.format, precision.sub_pixel_bits)
+            .first->second;
+    const reference::GridPoint sample =
+        reference::pixel_centre(at % picture.width, at / picture.width, precision.sub_pixel_bits);
+    const ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at]);
+    const double bound =
+        law.bound ? *law.bound : depth_bound(precision.format, law.interpolator, triangle.z, plane, error);
+    ++tally.depths;
+    tally.worst_ulps = std::max(tally.worst_ulps, error.ulps);
+    tally.worst_share = std::max(tally.worst_share, error.ulps / bound);
+    tally.inexact += error.ulps > bound ? 1 : 0;
+    tally.out_of_range += error.beyond > bound ? 1 : 0;
+  }
+}
+
+/// Rejected: no sample of the tile is covered. Accepted: all of them are.
+void judge_decisions(const Case& made, const Precision& precision, const Picture& picture, Tally& tally) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const KnownTriangle*> known;
+  for (const KnownTriangle& triangle : made.triangles) {
+    known[{triangle.draw, triangle.index}] = &triangle;
+  }
+  const auto size = static_cast<std::uint32_t>(picture.tile_size);
+  for (const DecisionEvent& decision : picture.decisions) {
+    const auto found = known.find({decision.draw, decision.triangle});
+    if (found == known.end() || decision.verdict == TileVerdict::kPartial) {
+      continue;
+    }
+    const KnownTriangle& triangle = *found->second;
+    const bool rejected = decision.verdict == TileVerdict::kReject;
+    bool sound = true;
+    for (std::uint32_t y = decision.tile_y * size; y < std::min((decision.tile_y + 1) * size, picture.height);
+         ++y) {
+      for (std::uint32_t x = decision.tile_x * size;
+           x < std::min((decision.tile_x + 1) * size, picture.width); ++x) {
+        const bool covered =
+            reference::covers(triangle.grid, reference::pixel_centre(x, y, precision.sub_pixel_bits),
+                              tie_rule(made.frame, triangle));
+        sound &= covered != rejected;
+      }
+    }
+    ++tally.decisions;
+    tally.unsound += sound ? 0 : 1;
+  }
+}
+
+void judge_twin(const Twin& twin, const Picture& picture, const Picture& second, Tally& tally) {
+  const auto width = static_cast<std::int64_t>(picture.width);
+  const auto height = static_cast<std::int64_t>(picture.height);
+  for (std::int64_t y = 0; y < height - twin.dy; ++y) {
+    for (std::int64_t x = 0; x < width - twin.dx; ++x) {
+      const auto at = static_cast<std::size_t>(y * width + x);
+      const auto there = static_cast<std::size_t>((y + twin.dy) * width + x + twin.dx);
+      const bool same = picture.fragments[at] == second.fragments[there] &&
+                        (!twin.same_depth || picture.codes[at] == second.codes[there]);
+      tally.moved += same ? 0 : 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::int32_t> expected_fragments(const Case& made, const Precision& precision) {
+  if (!made.triangles.empty()) {
+    return define(made, precision).fragments;
+  }
+  return made.fragments;
+}
+
+Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, const Picture& picture,
+            const Picture* twin) {
+  Tally tally{.cases = 1, .triangles = made.frame.indices.size() / 3};
+  if (!made.triangles.empty()) {
+    const Definition definition = define(made, precision);
+    tally.samples += definition.samples;
+    // What hi_z rejects is no fragment: early-Z would have killed it.
+    const bool some_culled = picture.culls && !made.survivors.empty();
+    for (std::size_t at = 0; at < picture.fragments.size(); ++at) {
+      if (some_culled && picture.fragments[at] < static_cast<std::uint32_t>(definition.fragments[at])) {
+        continue;
+      }
+      count(made.partition ? 1 : definition.fragments[at], picture.fragments[at], tally);
+    }
+    if (made.depth) {
+      judge_depth(made, precision, law, definition, picture, tally);
+    }
+    if (!made.depth) {  // a triangle whose depth is resolved sample by sample is decided piece by piece
+      judge_decisions(made, precision, picture, tally);
+    }
+  }
+  for (std::size_t at = 0; at < made.fragments.size(); ++at) {
+    if (made.fragments[at] != kUncertain) {
+      ++tally.samples;
+      count(made.fragments[at], picture.fragments[at], tally);
+    }
+  }
+  for (std::size_t at = 0; at < made.survivors.size(); ++at) {
+    ++tally.tested;
+    tally.mistested += made.survivors[at] == static_cast<std::int32_t>(picture.survivors[at]) ? 0 : 1;
+  }
+  if (made.twin) {
+    judge_twin(*made.twin, picture, *twin, tally);
+  }
+  return tally;
+}
+
+}  // namespace halfspace::stress

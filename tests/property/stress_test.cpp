@@ -1,0 +1,189 @@
+// The families of the stress campaign, and its judge. What they say is held against a subject that is the
+// definition itself, and against subjects that break one law each.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/reference/rasterizer.hpp"
+#include "halfspace/stress/campaign.hpp"
+#include "halfspace/stress/campaign_state.hpp"
+#include "halfspace/stress/homogeneous_oracle.hpp"
+#include "random.hpp"
+
+using namespace halfspace;
+using namespace halfspace::stress;
+using namespace halfspace::testing;
+
+namespace {
+
+/// The textbook rasterizer, which is exact, and something done to its picture.
+class Textbook final : public Subject {
+ public:
+  using Change = std::function<void(Picture&)>;
+
+  explicit Textbook(Change change = [](Picture&) {}) : change_(std::move(change)) {}
+
+  [[nodiscard]] std::string name() const override { return "textbook"; }
+
+  Picture draw(const Frame& frame) override {
+    reference::Options options;
+    options.guard_band = 1e9;  // only the window's limit
+    const reference::Surface surface = reference::rasterize(frame, options).at(0);
+    Picture picture{.width = surface.width,
+                    .height = surface.height,
+                    .fragments = {surface.fragments.begin(), surface.fragments.end()},
+                    .survivors = {surface.survivors.begin(), surface.survivors.end()},
+                    .codes = surface.codes};
+    change_(picture);
+    return picture;
+  }
+
+ private:
+  Change change_;
+};
+
+CampaignPlan plan_for(DepthFormat format, std::uint64_t cases) {
+  CampaignPlan plan{.precision = {.format = format}, .seed = seed(), .cases = cases};
+  for (const Family& family : families()) {
+    plan.families.push_back(&family);
+  }
+  // Its depth is that of vertices before they are snapped, in double: see docs/guides/reference.md.
+  plan.depth.bound = 1e9;
+  return plan;
+}
+
+CampaignState run(const CampaignPlan& plan, Subject& subject) {
+  return run_campaign(plan, subject, [](const CampaignState&) {});
+}
+
+CampaignPlan only(const char* family, std::uint64_t cases) {
+  CampaignPlan plan = plan_for(DepthFormat::kUnorm24, cases);
+  plan.families = {&family_of(family)};
+  return plan;
+}
+
+}  // namespace
+
+TEST_CASE("stress: every family obeys its law with the textbook rasterizer", "[property]") {
+  const auto format = GENERATE(DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32);
+  CAPTURE(seed(), name(format));
+  Textbook textbook;
+  const CampaignState state = run(plan_for(format, samples(20'000) / 1000), textbook);
+  for (const FamilyState& family : state.families) {
+    CAPTURE(family.family, family.next);
+    CHECK(family.tally.samples > 0);
+    CHECK(family.tally.missing == 0);
+    CHECK(family.tally.extra == 0);
+    CHECK(family.tally.failed == 0);
+    CHECK(family.tally.mistested == 0);
+  }
+}
+
+TEST_CASE("stress: meshes tile the target by the definition", "[property]") {
+  CAPTURE(seed());
+  for (const int bits : {4, 6, 8}) {
+    for (std::uint64_t index = 0; index < samples(20'000) / 1000; ++index) {
+      CAPTURE(bits, index);
+      Case made = make_case(family_of("mesh"), {.sub_pixel_bits = bits}, seed(), index);
+      REQUIRE(made.partition);
+      for (const std::int32_t count : expected_fragments(made, {.sub_pixel_bits = bits})) {
+        REQUIRE(count == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("stress: homogeneous coverage is the definition's where w is 1", "[property]") {
+  CAPTURE(seed());
+  Random random(seed());
+  std::uint64_t certain = 0;
+  for (std::uint64_t n = 0; n < samples(20'000) / 256; ++n) {
+    reference::GridTriangle grid;
+    std::array<glm::vec4, 3> clip{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      grid[i] = {random.between(-4096, 8192), random.between(-4096, 8192)};
+      clip[i] = {static_cast<double>(grid[i].x) / 2048 - 1, static_cast<double>(grid[i].y) / 2048 - 1, 0.5,
+                 1};
+    }
+    const HomogeneousTriangle exact(clip, 16, 8);
+    for (std::uint32_t y = 0; y < 16; ++y) {
+      for (std::uint32_t x = 0; x < 16; ++x) {
+        const Certainty certainty = exact.covers(x, y);
+        if (certainty != Certainty::kUncertain) {
+          ++certain;
+          const bool covered =
+              reference::covers(grid, reference::pixel_centre(x, y, 8), reference::TieRule::kTopLeft);
+          REQUIRE(covered == (certainty == Certainty::kInside));
+        }
+      }
+    }
+  }
+  CHECK(certain > 0);
+}
+
+TEST_CASE("stress: the judge finds a picture that breaks a law", "[property]") {
+  const auto errors = [](const char* family, const Textbook::Change& change) {
+    Textbook wrong(change);
+    return run(only(family, 20), wrong).sum();
+  };
+  const auto first = [](Picture& picture) { ++picture.fragments[0]; };
+  CHECK(errors("sliver", first).extra == 20);
+  CHECK(errors("mesh", first).extra == 20);
+  CHECK(errors("mesh", [](Picture& picture) { picture.fragments.back() = 0; }).missing == 20);
+  CHECK(errors("fan", [](Picture& picture) {
+          for (std::uint32_t& count : picture.fragments) ++count;
+        }).extra >= 20);
+  CHECK(errors("depth_stack", [](Picture& picture) { ++picture.survivors[7]; }).mistested == 20);
+  CHECK(errors("grid_depth", [](Picture& picture) {
+          for (std::uint32_t& code : picture.codes) code = 0xFFFFFF;
+        }).out_of_range > 20);
+  bool odd = false;
+  CHECK(errors("permuted", [&](Picture& picture) {
+          picture.codes[5] ^= odd ? 1 : 0;
+          odd = !odd;
+        }).moved == 20);
+  CHECK(errors("sub_pixel", [](Picture&) { throw InputError("no picture"); }).failed == 20);
+  CHECK(errors("sub_pixel", [](Picture& picture) { picture.fragments.pop_back(); }).failed == 20);
+}
+
+TEST_CASE("stress: a depth one code off is found") {
+  Textbook off([](Picture& picture) {
+    for (std::uint32_t& code : picture.codes) code += code < 0xFFFFFF ? 1 : 0;
+  });
+  CampaignPlan plan = only("grid_depth", 20);
+  plan.depth.bound.reset();
+  CHECK(run(plan, off).sum().inexact > 20);
+}
+
+TEST_CASE("stress: a campaign that is cut off goes on where it was") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("halfspace_stress_" + std::to_string(seed()));
+  std::filesystem::remove_all(folder);
+  Textbook textbook;
+  CampaignPlan whole = plan_for(DepthFormat::kUnorm24, 6);
+  const CampaignState at_once = run(whole, textbook);
+
+  CampaignPlan part = plan_for(DepthFormat::kUnorm24, 4);
+  part.folder = folder;
+  CHECK(run(part, textbook).sum().cases == 4 * families().size());
+  part.cases = 6;
+  CampaignState twice = run(part, textbook);
+  CHECK(twice.sittings == 2);
+  twice.sittings = at_once.sittings;
+  twice.seconds = at_once.seconds;
+  CHECK(to_json(twice) == to_json(at_once));
+
+  part.seed += 1;
+  CHECK_THROWS_WITH(run(part, textbook), Catch::Contains("the campaign's seed is"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("stress: errors name what is legal") {
+  CHECK_THROWS_WITH(family_of("slivers"), Catch::Contains("family is 'slivers'; it must be one of sliver,"));
+  CHECK_THROWS_WITH(library_subject("/nowhere/lib.so", 8),
+                    Catch::Contains("/nowhere/lib.so cannot be loaded"));
+  CHECK_THROWS_WITH(files_subject("/nowhere"), Catch::Contains("/nowhere is not a folder"));
+}
