@@ -98,7 +98,7 @@ module z_decoder
     assign is_plane = !is_plain && !data_i[0];
 
     always_comb begin
-      value_d = plain & {Samples*CodeBits{is_plain}};
+      value_d = is_plain ? plain : '0;
       high_d  = '0;
       for (int unsigned h = 0; h < 2; h++) begin
         for (int unsigned s = 1; s <= MostCodedShift; s++) begin

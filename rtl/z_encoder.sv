@@ -25,10 +25,11 @@ module z_encoder
   rows_t                   rows;
   rows_t                   rows_q [1:Last];
 
-  // Loops over samples as in z_decoder.
+  // Loops over samples as in z_decoder. The line by itself, or a simulator fetches it from where it is for each sample.
   always_comb begin
+    automatic quads_t codes = codes_i;
     for (int unsigned i = 0; i < Samples; i++) begin
-      rows[i] = codes_i[quad_of(i)][sample_of(i)];
+      rows[i] = codes[quad_of(i)][sample_of(i)];
     end
   end
 
@@ -126,8 +127,7 @@ module z_encoder
           end
 
           assign this_one   = half_q[5] == 1'(h) && shift == coded_shift_t'(s);
-          assign line[h][s] = (plane & {DataBits{this_one & plane_fits[s]}})
-                              | (ends & {DataBits{this_one & ~plane_fits[s]}});
+          assign line[h][s] = !this_one ? '0 : plane_fits[s] ? plane : ends;
         end else begin : gen_no_size
           assign line[h][s] = '0;
         end
@@ -162,7 +162,7 @@ module z_encoder
   always_ff @(posedge clk_i) begin
     if (valid_q[Last]) begin
       shift_o <= shift;
-      data_o  <= coded | (plain & {DataBits{shift == '0}});
+      data_o  <= shift == '0 ? plain : coded;
     end
   end
   assign valid_o = valid_q[ZEncodeLatency];
