@@ -25,20 +25,59 @@ Proof.
   unfold done; now rewrite (H w (or_introl eq_refl)).
 Qed.
 
-(* make_way() has done the oldest ones, up to the newest that meets the burst, or more. *)
-Theorem way_is_made : forall oldest rest m burst, (forall w, In w rest -> ~ meets burst w) ->
-  forall s, burst s = true -> all_done m oldest s = all_done m (oldest ++ rest) s.
+Lemma done_by_slot : forall w m m' s, m s = m' s -> done m w s = done m' w s.
+Proof. intros w m m' s H; unfold done; now rewrite H. Qed.
+
+Lemma all_done_by_slot : forall out m m' s, m s = m' s -> all_done m out s = all_done m' out s.
 Proof.
-  intros oldest rest m burst Hrest s Hs; unfold all_done at 2; rewrite fold_left_app.
-  symmetry; apply untouched; intros w Hw.
-  destruct (touches w s) eqn:E; [| reflexivity]; exfalso; apply (Hrest w Hw); now exists s.
+  induction out as [| w out IH]; intros m m' s H; [exact H |].
+  unfold all_done in *; simpl; apply IH; now apply done_by_slot.
 Qed.
 
-(* Those done and those that are left make the same memory as all, so a burst may come at any time. *)
-Theorem writes_keep_their_order : forall oldest rest m,
-  all_done (all_done m oldest) rest = all_done m (oldest ++ rest).
-Proof. intros; unfold all_done; now rewrite fold_left_app. Qed.
+(* The lines as they are, the late writes that are out, the oldest first, and the lines as they would be if
+   every burst wrote at once. make_way() has late writes done before a burst until no one that is out meets it.
+   What a burst does to its slots at once holds lines that are fetched or replaced. *)
+Inductive machine (start : memory) : memory -> list write -> memory -> Prop :=
+| machine_start : machine start start [] start
+| machine_finishes m w out eager : machine start m (w :: out) eager -> machine start (done m w) out eager
+| machine_writes m out eager w : machine start m out eager -> (forall o, In o out -> ~ meets (touches w) o) ->
+    machine start (done m w) out (done eager w)
+| machine_writes_late m out eager w : machine start m out eager ->
+    (forall o, In o out -> ~ meets (touches w) o) -> machine start m (out ++ [w]) (done eager w).
+
+Theorem late_writes_are_only_late : forall start m out eager, machine start m out eager ->
+  forall s, all_done m out s = eager s.
+Proof.
+  intros start m out eager H.
+  induction H as [| m w out eager _ IH | m out eager w _ IH Hmeets | m out eager w _ IH _]; intro s.
+  - reflexivity.
+  - exact (IH s).
+  - destruct (touches w s) eqn:E.
+    + assert (Hout : forall o, In o out -> touches o s = false).
+      { intros o Ho; destruct (touches o s) eqn:Eo; [| reflexivity].
+        exfalso; apply (Hmeets o Ho); now exists s. }
+      rewrite untouched by exact Hout; apply done_by_slot.
+      now rewrite <- (IH s), untouched by exact Hout.
+    + rewrite (all_done_by_slot out (done m w) m s) by (unfold done; now rewrite E).
+      rewrite IH; unfold done; now rewrite E.
+  - unfold all_done in *; rewrite fold_left_app; simpl; now apply done_by_slot.
+Qed.
+
+(* Nobody sees them: a burst that none meets finds its slots as if all had written at once. *)
+Theorem bursts_see_no_late_write : forall start m out eager burst, machine start m out eager ->
+  (forall o, In o out -> ~ meets burst o) -> forall s, burst s = true -> m s = eager s.
+Proof.
+  intros start m out eager burst H Hmeets s Hs.
+  rewrite <- (late_writes_are_only_late start m out eager H s); symmetry; apply untouched.
+  intros o Ho; destruct (touches o s) eqn:Eo; [| reflexivity].
+  exfalso; apply (Hmeets o Ho); now exists s.
+Qed.
+
+(* At the end all are done: a flush or a clear finds the same. *)
+Theorem all_finished_is_eager : forall start m eager, machine start m [] eager -> forall s, m s = eager s.
+Proof. intros start m eager H s; exact (late_writes_are_only_late start m [] eager H s). Qed.
 End Queue.
 
-Print Assumptions way_is_made.
-Print Assumptions writes_keep_their_order.
+Print Assumptions late_writes_are_only_late.
+Print Assumptions bursts_see_no_late_write.
+Print Assumptions all_finished_is_eager.
