@@ -65,7 +65,7 @@ Proof.
     specialize (H x y Hxy); lia.
 Qed.
 
-(* rtl/block_edge.sv and rtl/tile_edge.sv test by the pixel, without the sub-pixel bits: the same verdicts. *)
+(* rtl/block_edge.sv and rtl/tile_edge.sv test by the pixel, without the sub-pixel bits: same verdicts. *)
 Theorem corner_tests_by_the_pixel : forall s e a b size, 0 <= s ->
   (drop_sub_pixel s e + to_largest a b size < 0 <->
      e + to_largest (a * 2 ^ s) (b * 2 ^ s) size < 0) /\

@@ -1,7 +1,7 @@
 (* From setup to the mask of a tile: the units cover what the reference covers. *)
 Require Import ZArith Lia Bool.
-From Halfspace Require Import edge_function fill_rule triangle_cover triangle_order sub_pixel corner_tests saturation
-  widths.
+From Halfspace Require Import edge_function fill_rule triangle_cover triangle_order.
+From Halfspace Require Import sub_pixel corner_tests saturation widths.
 Open Scope Z_scope.
 
 (* edge.c of setup() in model/halfspace/units/setup.cpp, moved to pixel (x, y) as block_walker() and
@@ -40,18 +40,20 @@ Theorem rejected_tile_is_empty : forall own s a b c size tx ty, 0 < size ->
   forall x y, in_square size x y -> covers own a b c (pixel_centre s (tx + x) (ty + y)) = false.
 Proof.
   intros own s a b c size tx ty Hsize Hreject x y Hxy.
-  assert (Hone : forall i j, rejects own s i j size tx ty -> inside own i j (pixel_centre s (tx + x) (ty + y)) = false).
+  assert (Hone : forall i j, rejects own s i j size tx ty ->
+    inside own i j (pixel_centre s (tx + x) (ty + y)) = false).
   { intros i j H; rewrite <- biased_is_rule, biased_in_tile; apply Z.leb_gt.
     exact (proj1 (reject_is_exact _ _ _ size Hsize) H x y Hxy). }
   unfold covers; destruct Hreject as [H | [H | H]]; apply Hone in H; rewrite H; now rewrite ?andb_false_r.
 Qed.
 
-(* half_plane() of model/halfspace/units/edge_evaluator.hpp, with the edge's accept bit: tile_walker() sets it
-   only where to_least() says so. *)
+(* half_plane() of model/halfspace/units/edge_evaluator.hpp, with the edge's accept bit: tile_walker() sets
+   it only where to_least() says so. *)
 Definition accepts (own : Z -> Z -> bool) (s : Z) (i j : point) (size tx ty : Z) : Prop :=
   0 <= biased_at own s i j tx ty + to_least (dx s i j) (dy s i j) size.
-Definition bit_of_edge (own : Z -> Z -> bool) (s limit : Z) (accept : bool) (i j : point) (tx ty x y : Z) : bool :=
-  accept || (0 <=? saturate limit (drop_sub_pixel s (biased_at own s i j tx ty)) + x * step_a i j + y * step_b i j).
+Definition bit_of_edge (own : Z -> Z -> bool) (s limit : Z) (accept : bool) (i j : point) (tx ty x y : Z) :=
+  let local := saturate limit (drop_sub_pixel s (biased_at own s i j tx ty)) in
+  accept || (0 <=? local + x * step_a i j + y * step_b i j).
 
 Theorem bit_of_edge_is_the_rule : forall own s t limit accept i j tx ty x y, 0 <= s -> 0 <= t ->
   on_guard_band s i -> on_guard_band s j -> 2 ^ t * 2 ^ step_bits s <= limit -> in_square (2 ^ t) x y ->
@@ -102,12 +104,14 @@ Theorem box_holds_what_is_covered : forall own a b c p, 0 < twice_area a b c -> 
 Proof.
   intros own a b c p Harea Hcovers.
   assert (Hnot : forall i j, inside own i j p = true -> 0 <= edge i j p).
-  { intros i j; unfold inside, inside_of; destruct (Z.compare_spec (edge i j p) 0); intros; try discriminate; lia. }
+  { intros i j; unfold inside, inside_of; destruct (Z.compare_spec (edge i j p) 0); intros;
+    try discriminate; lia. }
   unfold covers in Hcovers; rewrite !andb_true_iff in Hcovers; destruct Hcovers as [[H1 H2] H3].
   apply Hnot in H1; apply Hnot in H2; apply Hnot in H3.
   pose proof (edges_are_weights a b c p) as [Hx Hy]; pose proof (edges_sum_to_area a b c p) as Hsum.
   revert Harea Hx Hy Hsum H1 H2 H3.
-  generalize (twice_area a b c) (edge b c p) (edge c a p) (edge a b p); intros area u v w Harea Hx Hy Hsum H1 H2 H3.
+  generalize (twice_area a b c) (edge b c p) (edge c a p) (edge a b p);
+    intros area u v w Harea Hx Hy Hsum H1 H2 H3.
   assert (Hmean : forall m x y z, area * m = u * x + v * y + w * z ->
     Z.min x (Z.min y z) <= m <= Z.max x (Z.max y z)).
   { intros m x y z Hm; set (lo := Z.min x (Z.min y z)); set (hi := Z.max x (Z.max y z)).
@@ -118,10 +122,10 @@ Proof.
   split; now apply Hmean.
 Qed.
 
-(* A bit of the tile's mask, of a tile that is not rejected, for a triangle whose vertices are in any order. The
-   mask is cut to scissor, viewport and target behind that. *)
-Definition mask_bit (own : Z -> Z -> bool) (s limit : Z) (accept : bool * bool * bool) (v : point * point * point)
-    (tx ty x y : Z) : bool :=
+(* A bit of the tile's mask, of a tile that is not rejected, for a triangle whose vertices are in any order.
+   The mask is cut to scissor, viewport and target behind that. *)
+Definition mask_bit (own : Z -> Z -> bool) (s limit : Z) (accept : bool * bool * bool)
+    (v : point * point * point) (tx ty x y : Z) : bool :=
   let '(a, b, c) := v in let '(ab, bc, ca) := accept in
   let between least most p := (first_sample s least <=? p) && (p <=? last_sample s most) in
   between (Z.min (px a) (Z.min (px b) (px c))) (Z.max (px a) (Z.max (px b) (px c))) (tx + x) &&
@@ -156,14 +160,16 @@ Proof.
     on_guard_band s a' /\ on_guard_band s b' /\ on_guard_band s c').
   { unfold setup_vertices, oriented, rotated_to_first.
     repeat match goal with |- context [if ?d then _ else _] => destruct d end; tauto. }
-  destruct (setup_vertices a b c) as [[u v] w]; destruct Haccept as (H1 & H2 & H3); destruct Hband as (Hu & Hv & Hw).
+  destruct (setup_vertices a b c) as [[u v] w]; destruct Haccept as (H1 & H2 & H3);
+    destruct Hband as (Hu & Hv & Hw).
   unfold mask_bit.
   rewrite !(bit_of_edge_is_the_rule own s t limit) by (trivial; lia).
   set (p := pixel_centre s (tx + x) (ty + y)).
   rewrite <- !andb_assoc, !(andb_assoc (inside own u v p)); fold (covers own u v w p).
   destruct (covers own u v w p) eqn:Hcovers; [| now rewrite !andb_false_r].
   destruct (box_holds_what_is_covered own u v w p Hpositive Hcovers) as [Hx Hy].
-  apply (sample_bounds_are_exact s _ _ (tx + x) Hs) in Hx; apply (sample_bounds_are_exact s _ _ (ty + y) Hs) in Hy.
+  apply (sample_bounds_are_exact s _ _ (tx + x) Hs) in Hx.
+  apply (sample_bounds_are_exact s _ _ (ty + y) Hs) in Hy.
   rewrite !(proj2 (Z.leb_le _ _)) by lia; reflexivity.
 Qed.
 

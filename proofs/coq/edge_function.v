@@ -1,7 +1,7 @@
 (* The edge function: the forms in which reference, model and RTL compute it are equal, over all integers.
 
-   Points are in units of 1/2^s pixel with y down, as GridPoint of model/halfspace/reference/exact_triangle.hpp
-   and ScreenVertex of model/halfspace/units/setup.cpp. *)
+   Points are in units of 1/2^s pixel with y down, as GridPoint of
+   model/halfspace/reference/exact_triangle.hpp and ScreenVertex of model/halfspace/units/setup.cpp. *)
 Require Import ZArith Lia.
 Open Scope Z_scope.
 

@@ -94,19 +94,23 @@ Proof.
   exact H.
 Qed.
 
+Ltac is_a_rule own :=
+  split; [intros ? *; unfold own; compare_all |];
+  intros a b a' b'; unfold own; rewrite !orb_true_iff, !andb_true_iff, !Z.ltb_lt, !Z.eqb_eq; lia.
+
 Theorem top_left_is_a_rule : fill_rule top_left.
-Proof. split; intros ? *; unfold top_left; compare_all. Qed.
+Proof. is_a_rule top_left. Qed.
 
 Theorem bottom_left_is_a_rule : fill_rule bottom_left.
-Proof. split; intros ? *; unfold bottom_left; compare_all. Qed.
+Proof. is_a_rule bottom_left. Qed.
 
 Theorem top_right_is_a_rule : fill_rule top_right.
-Proof. split; intros ? *; unfold top_right; compare_all. Qed.
+Proof. is_a_rule top_right. Qed.
 
 Theorem bottom_right_is_a_rule : fill_rule bottom_right.
-Proof. split; intros ? *; unfold bottom_right; compare_all. Qed.
+Proof. is_a_rule bottom_right. Qed.
 
-(* Which coincide: the sign of the normal is the top-left rule, and right rules are left ones turned round. *)
+(* Which coincide: the sign of the normal is the top-left rule; right rules are left ones turned round. *)
 Theorem normal_sign_is_top_left : forall a b, normal_sign a b = top_left a b.
 Proof. intros; unfold normal_sign, top_left; compare_all. Qed.
 

@@ -1,5 +1,5 @@
-(* Hi-Z's verdicts on a tile are sound: where it says that none passes, none does; where it says that all pass,
-   all do. What the bounds are and when they hold is in hi_z_bounds.v, hi_z_plane.v and hi_z_order.v. *)
+(* Hi-Z's verdicts on a tile are sound: where it says that none passes, none does; where it says that all
+   pass, all do. What the bounds are and when they hold is in hi_z_bounds.v, hi_z_plane.v, hi_z_order.v. *)
 Require Import ZArith Lia Bool.
 Open Scope Z_scope.
 
@@ -39,7 +39,7 @@ Definition test (func : depth_func) (at_least_known below_known : Z -> bool) (le
   end.
 
 Section Verdicts.
-  (* Samples of the tile that the triangle covers, with their codes and what is stored there at their test. *)
+  (* Samples of the tile that the triangle covers, with their codes and what is stored at their test. *)
   Variable sample : Type.
   Variables incoming stored : sample -> Z.
 
@@ -84,8 +84,8 @@ Section Verdicts.
 End Verdicts.
 
 (* Of codes from `low` to `high` against stored codes from `least` to `most`, the rules of the tables in
-   docs/units/hi_z.md say all that can be said. Two verdicts are left out: where both ranges are the same single
-   code, NOTEQUAL has none that passes, and EQUAL only such. *)
+   docs/units/hi_z.md say all that can be said. Two verdicts are left out: where both ranges are the same
+   single code, NOTEQUAL has none that passes, and EQUAL only such. *)
 Section Tables.
   Variables low high least most : Z.
   Hypothesis codes : low <= high.
@@ -98,8 +98,8 @@ Section Tables.
     forall i s, low <= i <= high -> least <= s <= most -> passes func i s = result.
 
   Ltac as_order :=
-    rewrite ?negb_true_iff, ?negb_false_iff, ?Z.ltb_lt, ?Z.ltb_ge, ?Z.leb_le, ?Z.leb_gt, ?Z.eqb_neq, ?Z.eqb_eq
-      in *.
+    rewrite ?negb_true_iff, ?negb_false_iff, ?Z.ltb_lt, ?Z.ltb_ge, ?Z.leb_le, ?Z.leb_gt, ?Z.eqb_neq,
+      ?Z.eqb_eq in *.
 
   Ltac decide_tests :=
     repeat match goal with
@@ -118,7 +118,8 @@ Section Tables.
   Theorem reject_is_complete : forall func, func <> NotEqual ->
     (verdict func = NonePasses <-> all_within func false).
   Proof.
-    intros func Hfunc; unfold verdict, all_within, test; destruct func; try (now destruct Hfunc); decide_tests;
+    intros func Hfunc; unfold verdict, all_within, test; destruct func; try (now destruct Hfunc);
+      decide_tests;
       (split;
        [ intros E; try discriminate E; intros i s Hi Hs; simpl; first [reflexivity | as_order; lia]
        | intro Hall; try reflexivity; by_witness Hall ]).
@@ -127,7 +128,8 @@ Section Tables.
   Theorem accept_is_complete : forall func, func <> Equal ->
     (verdict func = AllPass <-> all_within func true).
   Proof.
-    intros func Hfunc; unfold verdict, all_within, test; destruct func; try (now destruct Hfunc); decide_tests;
+    intros func Hfunc; unfold verdict, all_within, test; destruct func; try (now destruct Hfunc);
+      decide_tests;
       (split;
        [ intros E; try discriminate E; intros i s Hi Hs; simpl; first [reflexivity | as_order; lia]
        | intro Hall; try reflexivity; by_witness Hall ]).

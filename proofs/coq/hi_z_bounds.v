@@ -17,7 +17,8 @@ Definition rounded (first last sh : Z) (least most : Z -> Z) : word :=
 
 (* cleared_word() and unknown_word(). *)
 Definition cleared (code : Z) : word := Word code 0 (fun _ => 0) (fun _ => 0).
-Definition unknown (bits : Z) : word := Word 0 (32 - bits) (fun _ => 0) (fun _ => Z.shiftr (2 ^ 32 - 1) (32 - bits)).
+Definition unknown (bits : Z) : word :=
+  Word 0 (32 - bits) (fun _ => 0) (fun _ => Z.shiftr (2 ^ 32 - 1) (32 - bits)).
 
 (* With steps of 2^sh codes the bounds of the block do not fit `bits`: the loop of put_entries() goes on. *)
 Definition too_many (first last bits sh : Z) : Prop := 2 ^ bits <= Z.shiftr last sh - Z.shiftr first sh.
@@ -41,7 +42,8 @@ Theorem rounding_changes_bits_below_a_step : forall first last sh least most i, 
   entry_least w i = least i - least i mod 2 ^ sh /\
   entry_most w i = most i - most i mod 2 ^ sh + (2 ^ sh - 1).
 Proof.
-  intros first last sh least most i Hsh w; unfold w, entry_least, entry_most, rounded; cbn [base shift least_steps most_steps].
+  intros first last sh least most i Hsh w; unfold w, entry_least, entry_most, rounded;
+    cbn [base shift least_steps most_steps].
   rewrite !steps_from_base by exact Hsh; by_steps sh.
   pose proof (Z.div_mod (least i) (2 ^ sh) ltac:(lia)); pose proof (Z.div_mod (most i) (2 ^ sh) ltac:(lia)).
   split; nia.
@@ -79,11 +81,12 @@ Proof.
   unfold too_many; intros first last bits Hbits Hfirst Hlast; by_steps (32 - bits).
   assert (0 <= first / 2 ^ (32 - bits)) by (apply Z.div_pos; lia).
   assert (last / 2 ^ (32 - bits) < 2 ^ bits).
-  { apply Z.div_lt_upper_bound; [lia |]; rewrite <- Z.pow_add_r by lia; now replace (32 - bits + bits) with 32 by ring. }
+  { apply Z.div_lt_upper_bound; [lia |]; rewrite <- Z.pow_add_r by lia;
+    now replace (32 - bits + bits) with 32 by ring. }
   lia.
 Qed.
 
-(* Where the loop stops it would not go on: so bit i is below a step exactly where steps of 2^i are too many. *)
+(* Where the loop stops it would not go on: so bit i is below a step where steps of 2^i are too many. *)
 Theorem too_many_stays : forall first last bits sh, 0 <= sh -> 0 <= bits ->
   too_many first last bits (sh + 1) -> too_many first last bits sh.
 Proof.
@@ -91,8 +94,10 @@ Proof.
   rewrite Z.pow_add_r in H by lia; change (2 ^ 1) with 2 in H.
   rewrite <- !Z.div_div in H by lia.
   pose proof (Z.pow_pos_nonneg 2 bits ltac:(lia) Hbits).
-  pose proof (Z.div_mod (last / 2 ^ sh) 2 ltac:(lia)); pose proof (Z.mod_pos_bound (last / 2 ^ sh) 2 ltac:(lia)).
-  pose proof (Z.div_mod (first / 2 ^ sh) 2 ltac:(lia)); pose proof (Z.mod_pos_bound (first / 2 ^ sh) 2 ltac:(lia)).
+  pose proof (Z.div_mod (last / 2 ^ sh) 2 ltac:(lia)).
+  pose proof (Z.mod_pos_bound (last / 2 ^ sh) 2 ltac:(lia)).
+  pose proof (Z.div_mod (first / 2 ^ sh) 2 ltac:(lia)).
+  pose proof (Z.mod_pos_bound (first / 2 ^ sh) 2 ltac:(lia)).
   lia.
 Qed.
 
@@ -106,8 +111,8 @@ Proof.
   nia.
 Qed.
 
-(* below_o[i] of rtl/hi_z_word.sv, from the length of the range: a bit from i + bits on, or all bits of a bound
-   and a borrow into bit i. *)
+(* below_o[i] of rtl/hi_z_word.sv, from the length of the range: a bit from i + bits on, or all bits of a
+   bound and a borrow into bit i. *)
 Definition below_step (first last bits i : Z) : bool :=
   let length := last - first in
   let borrow := xorb (xorb (Z.testbit length i) (Z.testbit last i)) (Z.testbit first i) in
@@ -118,7 +123,8 @@ Theorem rtl_finds_the_shift : forall first last bits i, 0 <= i -> 0 < bits -> 0 
 Proof.
   intros first last bits i Hi Hbits Hrange; unfold below_step, too_many.
   assert (Hbit : forall v, Z.testbit v i = Z.odd (v / 2 ^ i)).
-  { intro v; rewrite <- Z.shiftr_div_pow2 by exact Hi; rewrite <- Z.bit0_odd, Z.shiftr_spec by lia; f_equal; lia. }
+  { intro v; rewrite <- Z.shiftr_div_pow2 by exact Hi; rewrite <- Z.bit0_odd, Z.shiftr_spec by lia;
+    f_equal; lia. }
   rewrite !Hbit; by_steps i.
   rewrite Z.pow_add_r by lia; rewrite <- Z.div_div by lia.
   pose proof (Z.pow_pos_nonneg 2 bits ltac:(lia) ltac:(lia)) as Hb.
@@ -131,8 +137,9 @@ Proof.
       rewrite Z.div_same in * by lia; lia.
     - apply negb_false_iff, Z.eqb_eq, Z.div_small; lia. }
   assert (Hborrow : xorb (xorb (Z.odd d) (Z.odd l)) (Z.odd f) = negb (d =? l - f)).
-  { destruct Hd as [E | E]; rewrite E; destruct (Z.eqb_spec (l - f) (l - f)), (Z.eqb_spec (l - f - 1) (l - f));
-      try lia; rewrite ?Z.odd_sub; simpl; destruct (Z.odd l), (Z.odd f); reflexivity. }
+  { destruct Hd as [E | E]; rewrite E;
+      destruct (Z.eqb_spec (l - f) (l - f)), (Z.eqb_spec (l - f - 1) (l - f)); try lia;
+      rewrite ?Z.odd_sub; simpl; destruct (Z.odd l), (Z.odd f); reflexivity. }
   rewrite Hany, Hborrow.
   destruct (Z.leb_spec (2 ^ bits) d) as [Hle | Hlt]; simpl; [split; [lia | reflexivity] |].
   rewrite Z.mod_small by lia.
@@ -155,7 +162,8 @@ Proof.
   split; [lia |]; rewrite Hsplit; nia.
 Qed.
 
-Theorem cleared_is_exact : forall code i, entry_least (cleared code) i = code /\ entry_most (cleared code) i = code.
+Theorem cleared_is_exact : forall code i,
+  entry_least (cleared code) i = code /\ entry_most (cleared code) i = code.
 Proof. intros; unfold entry_least, entry_most, cleared; simpl; lia. Qed.
 
 Theorem unknown_is_every_code : forall bits i, 0 <= bits <= 32 ->

@@ -73,16 +73,16 @@ Proof. by_function. Qed.
 Record bounds := Bounds { least : Z -> Z; most : Z -> Z }.
 
 Definition holds (b : bounds) (s : image) : Prop := forall x, least b (part x) <= s x <= most b (part x).
-Definition outward (b wider : bounds) : Prop := forall q, least wider q <= least b q /\ most b q <= most wider q.
+Definition outward (b wider : bounds) : Prop :=
+  forall q, least wider q <= least b q /\ most b q <= most wider q.
 
-(* hi_z_update(), and allow_for_late_write() where the draw is late: of the parts that are touched, what `told`
-   has, which holds for what is stored after the test but before a late write. The others keep theirs. *)
+(* hi_z_update(), and allow_for_late_write() where the draw is late: of the parts that are touched, what
+   `told` has, which holds for what is stored after the test but before a late write. Others keep theirs. *)
 Definition update (j : job) (told b : bounds) : bounds :=
-  Bounds
-    (fun q => if touched j q then if late j && moves_down j then Z.min (least told q) (min_code j) else least told q
-              else least b q)
-    (fun q => if touched j q then if late j && moves_up j then Z.max (most told q) (max_code j) else most told q
-              else most b q).
+  let allowed_least q := if late j && moves_down j then Z.min (least told q) (min_code j) else least told q in
+  let allowed_most q := if late j && moves_up j then Z.max (most told q) (max_code j) else most told q in
+  Bounds (fun q => if touched j q then allowed_least q else least b q)
+         (fun q => if touched j q then allowed_most q else most b q).
 
 Theorem update_holds : forall sure j s told b, well_formed j ->
   (sure = true -> late j = false /\ touches_depth j = true) ->
@@ -99,7 +99,8 @@ Proof.
     + rewrite E; destruct (moves_down j), (moves_up j); lia.
     + specialize (Hclamped Hc).
       pose proof (stored_moves_up_only j s x) as Hup; pose proof (stored_moves_down_only j s x) as Hdown.
-      destruct (moves_down j), (moves_up j); try specialize (Hup eq_refl); try specialize (Hdown eq_refl); lia.
+      destruct (moves_down j), (moves_up j); try specialize (Hup eq_refl); try specialize (Hdown eq_refl);
+        lia.
   - (* No part of the burst, or a draw that writes nothing. *)
     replace (stored_after sure j s x) with (s x); [exact (Hb x) |].
     destruct (stored_or_code sure j s x) as [E | [Hc E]]; [now rewrite E |].
@@ -110,8 +111,8 @@ Proof.
       destruct (func j), (writes j); try discriminate; simpl; now rewrite ?andb_false_r.
 Qed.
 
-(* What was stored at the beginning: of a frame, where nothing is known, or by a fast clear, which sees all jobs
-   and sets all bounds to its code. *)
+(* What was stored at the beginning: of a frame, where nothing is known, or by a fast clear, which sees all
+   jobs and sets all bounds to its code. *)
 Variable start : image.
 
 (* Without hi_z: what is stored after these jobs. *)
@@ -209,7 +210,8 @@ Inductive machine : list job -> list job -> image -> Prop :=
 Lemma passed_by_sample : forall sure j s s' x, s x = s' x -> passed sure j s x = passed sure j s' x.
 Proof. intros; unfold passed; now rewrite H. Qed.
 
-Lemma stored_by_sample : forall sure j s s' x, s x = s' x -> stored_after sure j s x = stored_after sure j s' x.
+Lemma stored_by_sample : forall sure j s s' x, s x = s' x ->
+  stored_after sure j s x = stored_after sure j s' x.
 Proof. intros; unfold stored_after; now rewrite (passed_by_sample sure j s s' x H), H. Qed.
 
 (* With hi_z the same is stored as without, after every job. *)
@@ -248,8 +250,8 @@ Proof.
 Qed.
 End Tile.
 
-(* hi_z_must_see() of model/halfspace/units/hi_z.hpp: a block sees as many jobs as the block before it or more,
-   and only such as had left when the block five before it was decided. *)
+(* hi_z_must_see() of model/halfspace/units/hi_z.hpp: a block sees as many jobs as the block before it or
+   more, and only such as had left when the block five before it was decided. *)
 Definition must_see (before lag seen : Z) : Z := Z.max seen (before - Z.min before lag).
 
 Theorem seen_jobs_have_left : forall before lag seen, 0 <= lag -> 0 <= seen <= before ->

@@ -26,8 +26,8 @@ Theorem at_pixel_from_a_square : forall s e a b x y x' y',
   at_pixel s (at_pixel s e a b x y) a b x' y' = at_pixel s e a b (x + x') (y + y').
 Proof. intros; unfold at_pixel; ring. Qed.
 
-(* here_q and row_q of rtl/block_edge.sv: along a row by size * a; at its end down from the row's beginning by
-   size * b. *)
+(* here_q and row_q of rtl/block_edge.sv: along a row by size * a; at its end down from the row's beginning
+   by size * b. *)
 Definition along (size a : Z) (here : Z) : Z := here + a * size.
 Definition walked_row (size a b : Z) (row : Z) (steps : nat) : Z := Nat.iter steps (along size a) row.
 Definition row_start (size b e : Z) (rows : nat) : Z := Nat.iter rows (fun row => row + b * size) e.
@@ -47,7 +47,8 @@ Qed.
 (* The tree of rtl/edge_steps.sv: level l makes rows 2^l to 2^(l+1) - 1 from those before. *)
 Theorem row_tree_is_direct : forall origin b (row : Z -> Z) levels,
   row 0 = origin ->
-  (forall level i, 0 <= level < levels -> 0 <= i < 2 ^ level -> row (2 ^ level + i) = row i + b * 2 ^ level) ->
+  (forall level i, 0 <= level < levels -> 0 <= i < 2 ^ level ->
+    row (2 ^ level + i) = row i + b * 2 ^ level) ->
   forall i, 0 <= i < 2 ^ levels -> row i = origin + i * b.
 Proof.
   intros origin b row levels H0 Hstep.

@@ -1,6 +1,6 @@
-(* Late writes wait in a queue, and nobody sees that they do: what a burst finds in its lines of the z cache is
-   what it would find if every burst had written at once. So hi_z_order.v lets a late write happen with the
-   test of its burst. *)
+(* Late writes wait in a queue, and nobody sees that they do: what a burst finds in its lines of the z cache
+   is what it would find if every burst had written at once. So hi_z_order.v lets a late write happen with
+   the test of its burst. *)
 Require Import List Bool.
 Import ListNotations.
 
@@ -35,12 +35,13 @@ Proof.
 Qed.
 
 (* The lines as they are, the late writes that are out, the oldest first, and the lines as they would be if
-   every burst wrote at once. make_way() has late writes done before a burst until no one that is out meets it.
-   What a burst does to its slots at once holds lines that are fetched or replaced. *)
+   every burst wrote at once. make_way() has late writes done before a burst until no one that is out meets
+   it. What a burst does to its slots at once holds lines that are fetched or replaced. *)
 Inductive machine (start : memory) : memory -> list write -> memory -> Prop :=
 | machine_start : machine start start [] start
 | machine_finishes m w out eager : machine start m (w :: out) eager -> machine start (done m w) out eager
-| machine_writes m out eager w : machine start m out eager -> (forall o, In o out -> ~ meets (touches w) o) ->
+| machine_writes m out eager w : machine start m out eager ->
+    (forall o, In o out -> ~ meets (touches w) o) ->
     machine start (done m w) out (done eager w)
 | machine_writes_late m out eager w : machine start m out eager ->
     (forall o, In o out -> ~ meets (touches w) o) -> machine start m (out ++ [w]) (done eager w).

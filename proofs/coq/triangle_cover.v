@@ -1,5 +1,5 @@
-(* Triangles that meet cover each sample once: on both sides of an edge, around a vertex on an edge of another
-   (a T-junction whose vertex is on the grid), and around a vertex inside. *)
+(* Triangles that meet cover each sample once: on both sides of an edge, around a vertex on an edge of
+   another (a T-junction whose vertex is on the grid), and around a vertex inside. *)
 Require Import ZArith Lia Bool.
 From Halfspace Require Import edge_function fill_rule.
 Open Scope Z_scope.

@@ -61,7 +61,7 @@ Proof.
   now rewrite <- (rotation_keeps_coverage own b a c), <- (rotation_keeps_coverage own a c b).
 Qed.
 
-(* `above` of rotate_to_first() in model/halfspace/units/setup.cpp; min_element() takes the first of equals. *)
+(* `above` of rotate_to_first() in model/halfspace/units/setup.cpp; min_element() takes the first. *)
 Definition above (l r : point) : bool := (py l <? py r) || ((py l =? py r) && (px l <? px r)).
 
 Definition rotated_to_first (t : point * point * point) : point * point * point :=
@@ -71,11 +71,12 @@ Definition rotated_to_first (t : point * point * point) : point * point * point 
 
 Definition setup_vertices (a b c : point) : point * point * point := rotated_to_first (oriented a b c).
 
-(* Equal triangles give equal equations: all orders of the vertices, of either winding, end in the same one. *)
+(* Equal triangles give equal equations: all orders of the vertices, of either winding, end in one. *)
 Theorem setup_forgets_order : forall a b c, twice_area a b c <> 0 ->
   setup_vertices b c a = setup_vertices a b c /\ setup_vertices a c b = setup_vertices a b c.
 Proof.
-  intros a b c Harea; unfold setup_vertices, oriented; rewrite (area_of_rotated a b c), (area_of_swapped a b c).
+  intros a b c Harea; unfold setup_vertices, oriented; rewrite (area_of_rotated a b c).
+  rewrite (area_of_swapped a b c).
   assert (Htotal : forall u v, u <> v -> above v u = negb (above u v)).
   { intros [xu yu] [xv yv] Hne.
     assert (~ (xu = xv /\ yu = yv)) by (intros [E1 E2]; apply Hne; now f_equal).

@@ -8,7 +8,8 @@ Definition coord_bits (s : Z) : Z := 16 + s.
 Definition edge_bits (s : Z) : Z := 2 * coord_bits s + 3.
 Definition pixel_edge_bits (s : Z) : Z := edge_bits s - s.
 
-Definition on_guard_band (s : Z) (p : point) : Prop := signed (coord_bits s) (px p) /\ signed (coord_bits s) (py p).
+Definition on_guard_band (s : Z) (p : point) : Prop :=
+  signed (coord_bits s) (px p) /\ signed (coord_bits s) (py p).
 
 Theorem steps_fit : forall s i j, 0 <= s -> on_guard_band s i -> on_guard_band s j ->
   signed (step_bits s) (step_a i j) /\ signed (step_bits s) (step_b i j).
@@ -18,7 +19,7 @@ Proof.
   rewrite Z.pow_succ_r by lia; lia.
 Qed.
 
-(* Twice the area of a triangle in a square of side d is d^2 at most: as a bound of products of differences. *)
+(* Twice the area of a triangle in a square of side d is d^2 at most: a bound of products of differences. *)
 Lemma area_in_square : forall d u v p q,
   Z.abs u <= d -> Z.abs v <= d -> Z.abs (u - v) <= d ->
   Z.abs p <= d -> Z.abs q <= d -> Z.abs (p - q) <= d ->
