@@ -62,7 +62,7 @@ def check_mutant(build, name, mutant):
     done, _ = coqc(build, path)
     if done.returncode == 0:
         return [f"{name}: compiles"]
-    at = re.search(r'line (\d+), characters.*\nError:\s*(.*)', done.stderr)
+    at = re.search(r"line (\d+), characters.*\nError:\s*(.*)", done.stderr)
     line = text[:text.index(mutant["from"]) + len(mutant["from"])].count("\n") + 1
     if at is None or int(at[1]) <= line or "yntax" in at[2]:
         return [f"{name}: fails for another reason: {done.stderr.strip()}"]
@@ -98,7 +98,8 @@ def main():
         wrong += check_mutant(build, name, mutant)
     unlisted = {path.stem for path in HERE.glob("*.v")} - set(FILES)
     wrong += [f"{name}: not in the list of files" for name in sorted(unlisted)]
-    print(f"{total} theorems, {len(mutants)} mutants, {len(wrong)} faults")
+    seconds = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    print(f"{total} theorems, {len(mutants)} mutants, {len(wrong)} faults, {seconds:.0f} s of CPU")
     print("\n".join(wrong), end="\n" if wrong else "")
     return 1 if wrong else 0
 
