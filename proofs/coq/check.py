@@ -91,7 +91,8 @@ def main():
             wrong.append(f"{name}: README.md does not have {count} theorems for it")
     for path in sorted((HERE / "must_fail").glob("*.v")):
         (build / "false").mkdir(exist_ok=True)
-        _, faults = check_proofs(build, pathlib.Path(shutil.copy(path, build / "false")), f"false, {path.stem}")
+        copy = pathlib.Path(shutil.copy(path, build / "false"))
+        _, faults = check_proofs(build, copy, f"false, {path.stem}")
         wrong += faults
     mutants = tomllib.loads((HERE / "must_fail" / "mutants.toml").read_text())
     for name, mutant in mutants.items():

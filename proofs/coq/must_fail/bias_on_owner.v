@@ -1,4 +1,5 @@
-(* False: the 1 is subtracted from edges that own their samples. Then no triangle has those of a shared edge. *)
+(* False: the 1 is subtracted from edges that own their samples. Then no triangle has
+   those of a shared edge. *)
 Require Import ZArith Bool.
 From Halfspace Require Import edge_function fill_rule.
 Open Scope Z_scope.

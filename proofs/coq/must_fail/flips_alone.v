@@ -1,5 +1,5 @@
-(* False: a rule that partitions the samples of every edge also partitions those around a vertex. The rule here
-   is the top-left rule, but for two directions turned round; the sample at the vertex itself is lost. *)
+(* False: a rule that partitions the samples of every edge also partitions those around a vertex. The rule
+   here is the top-left rule, but for two directions turned round; the sample at the vertex itself is lost. *)
 Require Import ZArith Lia Bool.
 From Halfspace Require Import edge_function fill_rule triangle_cover.
 Open Scope Z_scope.

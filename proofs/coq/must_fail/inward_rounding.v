@@ -7,8 +7,8 @@ Open Scope Z_scope.
 Definition rounded_inward (most : Z) : Z := most / 2 * 2.
 
 Theorem inward_rounding : ~ forall incoming stored least most, least <= stored <= most ->
-  test Less (fun code => code <=? incoming) (fun code => incoming <? code) least (rounded_inward most) true true
-    = NonePasses ->
+  test Less (fun code => code <=? incoming) (fun code => incoming <? code) least (rounded_inward most)
+    true true = NonePasses ->
   passes Less incoming stored = false.
 Proof.
   intro H; specialize (H 4 5 5 5 ltac:(lia)); simpl in H; unfold test, rounded_inward in H; simpl in H.

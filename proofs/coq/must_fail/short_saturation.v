@@ -9,7 +9,8 @@ Theorem short_saturation : ~ forall s t v a b x y, 4 <= s <= 8 -> 2 <= t <= 4 ->
 Proof.
   intro H; specialize (H 8 2 (6 * 2 ^ 24) (- 2 ^ 24) (- 2 ^ 24) 3 3).
   assert (Hsign : 0 <= 6 * 2 ^ 24 + 3 * - 2 ^ 24 + 3 * - 2 ^ 24) by lia.
-  apply H in Hsign; unfold signed, step_bits, in_square in *; [unfold saturate in Hsign | ..]; simpl in *; lia.
+  apply H in Hsign; unfold signed, step_bits, in_square in *; [unfold saturate in Hsign | ..];
+    simpl in *; lia.
 Qed.
 
 Print Assumptions short_saturation.
