@@ -63,21 +63,25 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
 /// Refuses options that a reference rasterizer has no use for.
 void check_reference(const RunCommand& options) {
   const RtlOptions& rtl = options.rtl;
-  for (const auto& [given, name] :
-       {std::pair{options.fidelity != "functional", "--fidelity"},
-        {options.core.core() != Core::kAuto, "--core"},
-        {options.threads.count > 1, "--threads above 1"},
-        {!options.stalls.stalls.empty() || !options.stalls.seed.empty(), "--stall and --seed"},
-        {options.tiles || !options.tile_jobs.empty(), "--tiles and --tile-jobs"},
-        {options.timeline.wanted || !options.vcd.empty(), "--timeline and --vcd"},
-        {options.quad_merging.has_value(), "--quad-merging"},
-        {!rtl.wave.empty() || !rtl.folder.empty() || !rtl.seed.empty() || rtl.every_cycle,
-         "options of the RTL"},
-        {options.what_if.what_if().any(), "a what-if"}}) {
+  for (const auto& [given, name] : {std::pair{options.fidelity != "functional", "--fidelity"},
+                                    {options.core.core() != Core::kAuto, "--core"},
+                                    {options.threads.count > 1, "--threads above 1"},
+                                    {!options.stalls.stalls.empty(), "--stall"},
+                                    {!options.stalls.seed.empty(), "--seed"},
+                                    {options.tiles, "--tiles"},
+                                    {!options.tile_jobs.empty(), "--tile-jobs"},
+                                    {options.timeline.wanted, "--timeline"},
+                                    {!options.vcd.empty(), "--vcd"},
+                                    {options.quad_merging.has_value(), "--quad-merging"},
+                                    {!rtl.wave.empty(), "--wave"},
+                                    {!rtl.folder.empty(), "--rtl-folder"},
+                                    {!rtl.seed.empty(), "--rtl-seed"},
+                                    {rtl.every_cycle, "--rtl-every-cycle"},
+                                    {options.what_if.what_if().any(), "a what-if"}}) {
     if (given) {
       throw InputError(fmt::format(
-          "--reference is '{}', with {}; legal with it: --fill-rule, --config, --set, --out, --quads, "
-          "--no-pictures, the camera",
+          "--reference is '{}', given with {}; legal with it: --fill-rule, --config, --set, --out, --quads, "
+          "--no-pictures, and the camera of a mesh",
           options.reference, name));
     }
   }

@@ -6,17 +6,6 @@
 namespace halfspace::reference {
 namespace {
 
-/// A rectangle of pixels that holds the triangle.
-PixelRect bounding_box(const GridTriangle& t, int subpixel_bits) {
-  // Right shift of a negative number rounds down (C++20).
-  PixelRect box;
-  box.first_x = std::min({t[0].x, t[1].x, t[2].x}) >> subpixel_bits;
-  box.first_y = std::min({t[0].y, t[1].y, t[2].y}) >> subpixel_bits;
-  box.end_x = (std::max({t[0].x, t[1].x, t[2].x}) >> subpixel_bits) + 1;
-  box.end_y = (std::max({t[0].y, t[1].y, t[2].y}) >> subpixel_bits) + 1;
-  return box;
-}
-
 /// Draws one piece of a triangle, inside the clip volume; largest_depth is that of the whole triangle.
 Fate draw_piece(const std::array<Corner, 3>& corners, const DrawState& draw, double largest_depth,
                 CoverageMethod cover, DrawnTriangle& drawn) {
@@ -48,6 +37,16 @@ Fate draw_piece(const std::array<Corner, 3>& corners, const DrawState& draw, dou
 }
 
 }  // namespace
+
+PixelRect bounding_box(const GridTriangle& t, int subpixel_bits) {
+  // Right shift of a negative number rounds down (C++20).
+  PixelRect box;
+  box.first_x = std::min({t[0].x, t[1].x, t[2].x}) >> subpixel_bits;
+  box.first_y = std::min({t[0].y, t[1].y, t[2].y}) >> subpixel_bits;
+  box.end_x = (std::max({t[0].x, t[1].x, t[2].x}) >> subpixel_bits) + 1;
+  box.end_y = (std::max({t[0].y, t[1].y, t[2].y}) >> subpixel_bits) + 1;
+  return box;
+}
 
 std::vector<Homogeneous> guard_band(const DrawState& draw) {
   const Command& d = draw.command;

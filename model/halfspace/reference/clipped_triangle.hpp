@@ -8,6 +8,9 @@
 
 namespace halfspace::reference {
 
+/// A rectangle of pixels that holds the triangle.
+[[nodiscard]] PixelRect bounding_box(const GridTriangle& t, int subpixel_bits);
+
 /// The planes of the clip volume's depth, unless the draw clamps depth, and of the guard band.
 [[nodiscard]] std::vector<Homogeneous> guard_band(const DrawState& draw);
 

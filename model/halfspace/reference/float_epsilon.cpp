@@ -14,7 +14,7 @@ struct FloatEdge {
     const auto pixels = [&](std::int64_t n) { return std::ldexp(static_cast<float>(n), -subpixel_bits); };
     a = pixels(from.y) - pixels(to.y);
     b = pixels(to.x) - pixels(from.x);
-    c = pixels(from.x) * pixels(to.y) - pixels(from.y) * pixels(to.x);
+    c = -(a * pixels(from.x) + b * pixels(from.y));
   }
 
   [[nodiscard]] bool has_inside(float x, float y, TieRule rule) const {

@@ -16,9 +16,9 @@ enum class LateZ {
 };
 
 struct Options {
-  std::string_view method = "exact";  ///< one of methods(); anything else throws InputError
-  std::optional<TieRule> rule;        ///< of all draws; none: that of each draw
-  int subpixel_bits = 8;              ///< 4 to 8; anything else throws InputError
+  std::string_view method = "exact";           ///< one of methods(); anything else throws InputError
+  std::optional<TieRule> rule = std::nullopt;  ///< of all draws; none: that of each draw
+  int subpixel_bits = 8;                       ///< 4 to 8; anything else throws InputError
   LateZ late_z = LateZ::kOpaque;
   double guard_band = 32;  ///< times the clip volume, in x and in y
   double window_limit =
