@@ -107,6 +107,20 @@ std::array<double, 3> distances(const ClipTriangle& t, const Homogeneous& plane)
 bool all_outside(const std::array<double, 3>& d) { return d[0] < 0 && d[1] < 0 && d[2] < 0; }
 bool one_outside(const std::array<double, 3>& d) { return d[0] < 0 || d[1] < 0 || d[2] < 0; }
 
+/// What a sample must be inside of. `edge`: positive inside; E_i is the determinant times the weight of
+/// vertex i over w, so where none is negative w is positive.
+std::vector<Boundary> boundaries_of(const ClipTriangle& triangle, const std::array<LinearFunction, 3>& edge,
+                                    const std::vector<Homogeneous>& depth_limits, TieRule rule) {
+  const auto boundary = [&](const LinearFunction& e) { return Boundary{e, owns_samples(e.a, e.b, rule)}; };
+  std::vector<Boundary> boundaries = {boundary(edge[0]), boundary(edge[1]), boundary(edge[2])};
+  // The near plane is a fourth edge function, and the far plane a fifth: a distance over w is linear too.
+  for (const Homogeneous& plane : depth_limits) {
+    const std::array<double, 3> distance = distances(triangle, plane);
+    if (one_outside(distance)) boundaries.push_back({weighted_sum(edge, distance), true});
+  }
+  return boundaries;
+}
+
 /// Depth in the window. z / w is linear there: the sum of z_i E_i / determinant.
 DepthPlane window_depth(const LinearFunction& z, double determinant, const Command& draw) {
   const double range = to_depth(1, draw) - to_depth(0, draw);
@@ -143,14 +157,7 @@ DrawnTriangle draw_homogeneously(const ClipTriangle& triangle, const DrawState& 
     for (LinearFunction& e : edge) e = {-e.a, -e.b, -e.c};
   }
 
-  // E_i is the determinant times the weight of vertex i over w: not negative inside, and only where w > 0.
-  std::vector<Boundary> boundaries;
-  for (const LinearFunction& e : edge) boundaries.push_back({e, owns_samples(e.a, e.b, draw.rule)});
-  // The near plane is a fourth edge function, and the far plane a fifth: a distance over w is linear too.
-  for (const Homogeneous& plane : depth_limits) {
-    const std::array<double, 3> distance = distances(triangle, plane);
-    if (one_outside(distance)) boundaries.push_back({weighted_sum(edge, distance), true});
-  }
+  const std::vector<Boundary> boundaries = boundaries_of(triangle, edge, depth_limits, draw.rule);
   DrawnTriangle drawn{Fate::kDrawn, {{}}};
   std::vector<Fragment>& fragments = drawn.pieces[0];
   descend(boundaries, draw.window, fragments);

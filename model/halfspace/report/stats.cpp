@@ -129,6 +129,24 @@ Json quad_merging_json(const QuadMergingCounters& counters) {
   return json;
 }
 
+Json frame_json(const Frame& frame, const FrameResult& result, bool of_reference) {
+  Json json = {{"name", frame.name},
+               {"targets", frame.targets.size()},
+               {"commands", frame.commands.size()},
+               {"draws", result.draws.size()},
+               {"draws_not_filled", result.draws_not_filled},
+               {"depth_clears", result.clears}};
+  if (!of_reference) {
+    json["flushed_lines"] = result.flushed_lines;
+    json["flushed_bytes"] = result.flushed_bytes;
+  }
+  json["counters"] = counters_json(result.counters, of_reference);
+  if (!of_reference) {
+    json["drawn_clears"] = counters_json(result.drawn_clears, of_reference);
+  }
+  return json;
+}
+
 Json stalls_json(const StallPlan& plan) {
   Json json = Json::object();
   for (std::size_t i = 0; i < kStallPoints; ++i) {
@@ -191,20 +209,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   if (what_if) {
     json["what_if"] = what_if_json(*what_if);
   }
-  json["frame"] = {{"name", frame.name},
-                   {"targets", frame.targets.size()},
-                   {"commands", frame.commands.size()},
-                   {"draws", result.draws.size()},
-                   {"draws_not_filled", result.draws_not_filled},
-                   {"depth_clears", result.clears}};
-  if (!of_reference) {
-    json["frame"]["flushed_lines"] = result.flushed_lines;
-    json["frame"]["flushed_bytes"] = result.flushed_bytes;
-  }
-  json["frame"]["counters"] = counters_json(result.counters, of_reference);
-  if (!of_reference) {
-    json["frame"]["drawn_clears"] = counters_json(result.drawn_clears, of_reference);
-  }
+  json["frame"] = frame_json(frame, result, of_reference);
   if (run.cycles) {
     const std::uint64_t cycles = run.cycles->cycles;
     json["frame"]["time"] = {{"cycles", cycles},
