@@ -3,22 +3,22 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iostream>
 #include <optional>
 #include <sstream>
 
 #include "../result_difference.hpp"
+#include "captured_frame.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/report/npy.hpp"
-#include "halfspace/scene/ptf.hpp"
 #include "halfspace/whatif/depth_ahead.hpp"
 #include "halfspace/whatif/sort.hpp"
 
 using namespace halfspace;
+using halfspace::testing::captured_frame;
+using halfspace::testing::folder_of;
 namespace fs = std::filesystem;
 
 namespace {
@@ -60,23 +60,6 @@ std::vector<Expected> read_expected(const fs::path& path, const std::string& fra
   return rows;
 }
 
-/// The folder that holds a frame; ends the test as skipped where there is none.
-fs::path folder_of(const std::string& frame) {
-  const char* variable = std::getenv("HALFSPACE_FRAMES");
-  for (const fs::path& folder :
-       {fs::path(HALFSPACE_SCENES), fs::path(variable != nullptr ? variable : HALFSPACE_FRAMES)}) {
-    if (fs::exists(folder / (frame + ".ptf.xz"))) {
-      return folder;
-    }
-  }
-  std::cout << "skipped: " << frame
-            << ".ptf.xz does not ship; set HALFSPACE_FRAMES to a folder of captured frames\n";
-  std::cout.flush();
-  std::_Exit(77);  // SKIP_RETURN_CODE of tests/CMakeLists.txt
-}
-
-Frame load_frame(const std::string& name) { return read_ptf(folder_of(name) / (name + ".ptf.xz")); }
-
 bool within(double value, double expected, double share) {
   return std::abs(value - expected) <= share * expected;
 }
@@ -94,7 +77,7 @@ FrameResult discarding_draws(const Frame& frame) {
 
 /// Counts of both ways to take draws that would test late, on every surface.
 void check_counts(const std::string& name) {
-  const Frame frame = load_frame(name);
+  const Frame frame = captured_frame(name);
   const std::vector<Expected> rows = read_expected(folder_of(name) / "expected.tsv", name);
   REQUIRE(!rows.empty());
   const bool exact = name == "vkcube" || name == "glmark2_shadow";
@@ -122,7 +105,7 @@ void check_counts(const std::string& name) {
 
 /// Depth on every surface that the driver could read back.
 void check_depth(const std::string& name) {
-  const Frame frame = load_frame(name);
+  const Frame frame = captured_frame(name);
   const FrameResult result = run_functional(frame, {});
   const FrameResult discarding = discarding_draws(frame);
   const std::vector<reference::Surface> unsnapped = reference::rasterize(frame, {});
@@ -175,7 +158,7 @@ void check_depth(const std::string& name) {
 
 /// No what-if of order changes the depth of any surface.
 void check_orders(const std::string& name) {
-  const Frame frame = load_frame(name);
+  const Frame frame = captured_frame(name);
   const FrameResult plain = run_functional(frame, {});
   const auto check = [&](const char* what, const auto& act) {
     CAPTURE(name, what);
@@ -197,7 +180,7 @@ void check_orders(const std::string& name) {
 
 /// Late draws: with no discard the depth of `opaque`, with all discarded that of `no_write`, with hi_z too.
 void check_late(const std::string& name) {
-  const Frame frame = load_frame(name);
+  const Frame frame = captured_frame(name);
   const auto run = [&frame](LateZ mode, int discard, bool hi_z) {
     Config config;
     config.late_z.mode = mode;

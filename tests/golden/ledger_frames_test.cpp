@@ -1,33 +1,13 @@
 // The ledger of frames of real programs.
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 
+#include "captured_frame.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/ledger/ledger.hpp"
 #include "halfspace/reference/rasterizer.hpp"
-#include "halfspace/scene/ptf.hpp"
 
 namespace halfspace::testing {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Ends the test as skipped where the frame is absent.
-Frame captured_frame(const std::string& name) {
-  const char* variable = std::getenv("HALFSPACE_FRAMES");
-  for (const fs::path& folder :
-       {fs::path(HALFSPACE_SCENES), fs::path(variable != nullptr ? variable : HALFSPACE_FRAMES)}) {
-    if (fs::exists(folder / (name + ".ptf.xz"))) {
-      return read_ptf(folder / (name + ".ptf.xz"));
-    }
-  }
-  std::cout << "skipped: " << name
-            << ".ptf.xz does not ship; set HALFSPACE_FRAMES to a folder of captured frames\n";
-  std::cout.flush();
-  std::_Exit(77);  // SKIP_RETURN_CODE of tests/CMakeLists.txt
-}
 
 /// Survivors and all that there was are what a machine without hi_z counts; and what the textbook rasterizer
 /// counts, whose guard band is another and whose depth is rounded elsewhere.

@@ -220,7 +220,8 @@ void check_against(const NaiveBuffer& naive, const Frame& frame) {
       REQUIRE(surface.codes.at(x, y) == code_of_depth(surface.format, eighths / 8.0));
     }
   }
-  const RunResult run{.frame = result, .cycles = {}, .times = {}, .rtl = {}, .quad_merging = {}};
+  const RunResult run{
+      .frame = result, .cycles = {}, .times = {}, .rtl = {}, .quad_merging = {}, .reference = {}};
   REQUIRE(work_of(frame, run).shaded == naive.shaded);
 }
 

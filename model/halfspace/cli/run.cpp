@@ -4,12 +4,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/cli/run_reference.hpp"
 #include "halfspace/cli/run_table.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/report/result_files.hpp"
@@ -31,6 +34,8 @@ struct RunCommand {
   StallOptions stalls;
   TimelineOptions timeline;
   std::string fidelity = "functional";
+  std::string reference;
+  std::string fill_rule;
   std::string out;
   std::string tile_jobs;
   std::optional<int> quad_merging;
@@ -53,6 +58,33 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, !options.rtl.folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
   require(fidelity, !options.rtl.seed.empty(), "--rtl-seed", &FidelityInfo::rtl);
   require(fidelity, options.rtl.every_cycle, "--rtl-every-cycle", &FidelityInfo::rtl);
+}
+
+/// Refuses options that a reference rasterizer has no use for.
+void check_reference(const RunCommand& options) {
+  const RtlOptions& rtl = options.rtl;
+  for (const auto& [given, name] : {std::pair{options.fidelity != "functional", "--fidelity"},
+                                    {options.core.core() != Core::kAuto, "--core"},
+                                    {options.threads.count > 1, "--threads above 1"},
+                                    {!options.stalls.stalls.empty(), "--stall"},
+                                    {!options.stalls.seed.empty(), "--seed"},
+                                    {options.tiles, "--tiles"},
+                                    {!options.tile_jobs.empty(), "--tile-jobs"},
+                                    {options.timeline.wanted, "--timeline"},
+                                    {!options.vcd.empty(), "--vcd"},
+                                    {options.quad_merging.has_value(), "--quad-merging"},
+                                    {!rtl.wave.empty(), "--wave"},
+                                    {!rtl.folder.empty(), "--rtl-folder"},
+                                    {!rtl.seed.empty(), "--rtl-seed"},
+                                    {rtl.every_cycle, "--rtl-every-cycle"},
+                                    {options.what_if.what_if().any(), "a what-if"}}) {
+    if (given) {
+      throw InputError(fmt::format(
+          "--reference is '{}', given with {}; legal with it: --fill-rule, --config, --set, --out, --quads, "
+          "--no-pictures, and the camera of a mesh",
+          options.reference, name));
+    }
+  }
 }
 
 /// Records what was asked for and shows progress.
@@ -95,6 +127,16 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
 
 /// Returns the exit status.
 int run_command(const RunCommand& command) {
+  if (!command.reference.empty()) {
+    check_reference(command);
+    run_reference({.method = command.reference,
+                   .fill_rule = command.fill_rule,
+                   .out = command.out,
+                   .quads = command.quads,
+                   .pictures = !command.no_pictures},
+                  whatif::join(command.input.frames()), command.machine.config());
+    return 0;
+  }
   const Fidelity fidelity = fidelity_of(command.fidelity);
   check_fidelity(fidelity, command);
   RunOptions options;
@@ -173,6 +215,7 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_option("--fidelity", options->fidelity, "selects the timing engine")
       ->check(CLI::IsMember(fidelities))
       ->capture_default_str();
+  add_reference_options(*command, options->reference, options->fill_rule);
   options->core.add_to(*command);
   options->threads.add_to(*command,
                           "Functional: each draws in columns of blocks of its own; recurrence: one runs the "

@@ -13,10 +13,15 @@ double evaluate(const Homogeneous& plane, const Homogeneous& v) {
 
 /// Where the edge from `in` (distance d_in >= 0) to `out` (d_out < 0) meets the plane. Always computed from
 /// the inside to the outside, so that the two triangles at an edge get the same new vertex.
-Homogeneous intersection(const Homogeneous& in, double d_in, const Homogeneous& out, double d_out) {
+Corner intersection(const Corner& in, double d_in, const Corner& out, double d_out) {
   const double t = d_in / (d_in - d_out);
-  return {in.x + t * (out.x - in.x), in.y + t * (out.y - in.y), in.z + t * (out.z - in.z),
-          in.w + t * (out.w - in.w)};
+  Corner cut;
+  cut.x = in.x + t * (out.x - in.x);
+  cut.y = in.y + t * (out.y - in.y);
+  cut.z = in.z + t * (out.z - in.z);
+  cut.w = in.w + t * (out.w - in.w);
+  for (std::size_t i = 0; i < 3; ++i) cut.color[i] = in.color[i] + t * (out.color[i] - in.color[i]);
+  return cut;
 }
 
 /// The largest k, up to `factor`, for which start + (k + 1) * size / 2 and start + (-k + 1) * size / 2 stay
@@ -32,8 +37,8 @@ double widening(double factor, double limit, double start, double size) {
 Polygon clip(const Polygon& polygon, const Homogeneous& plane) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Homogeneous& from = polygon[i];
-    const Homogeneous& to = polygon[(i + 1) % polygon.size()];
+    const Corner& from = polygon[i];
+    const Corner& to = polygon[(i + 1) % polygon.size()];
     const double d_from = evaluate(plane, from);
     const double d_to = evaluate(plane, to);
     if (d_from >= 0) result.push_back(from);

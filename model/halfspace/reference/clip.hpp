@@ -3,6 +3,7 @@
 /// coordinates", 1978).
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace halfspace::reference {
@@ -15,7 +16,14 @@ struct Homogeneous {
   double w = 0;
 };
 
-using Polygon = std::vector<Homogeneous>;
+using Color = std::array<double, 3>;  ///< red, green and blue in [0, 1]
+
+/// A corner of a polygon, with an attribute that a cut interpolates as it does the position.
+struct Corner : Homogeneous {
+  Color color = {};
+};
+
+using Polygon = std::vector<Corner>;
 
 /// The part of `polygon` where `plane` is not negative. Vertices that are kept are kept unchanged.
 [[nodiscard]] Polygon clip(const Polygon& polygon, const Homogeneous& plane);

@@ -5,18 +5,10 @@
 namespace halfspace::reference {
 namespace {
 
-/// Does the edge from a to b of a clockwise triangle own the samples on it? With y down, the inside lies to
-/// the right of the direction of travel, so a left edge runs upwards, a top edge to the right and a bottom
-/// edge to the left.
-bool owns_its_samples(const GridPoint& a, const GridPoint& b, TieRule rule) {
-  if (b.y != a.y) return b.y < a.y;
-  return rule == TieRule::kTopLeft ? b.x > a.x : b.x < a.x;
-}
-
 bool inside_edge(const GridPoint& a, const GridPoint& b, const GridPoint& sample, TieRule rule) {
   // The edge function is the doubled area of the triangle that the edge and the sample span.
   const Int128 side = twice_area(a, b, sample);
-  if (side == 0) return owns_its_samples(a, b, rule);
+  if (side == 0) return owns_samples(a.y - b.y, b.x - a.x, rule);
   return side > 0;
 }
 

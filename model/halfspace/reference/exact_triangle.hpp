@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "halfspace/reference/tie_rule.hpp"
+
 namespace halfspace::reference {
 
 /// 128 bits, so that no range has to be argued about: coordinates of up to 62 bits are exact.
@@ -17,10 +19,6 @@ struct GridPoint {
 };
 
 using GridTriangle = std::array<GridPoint, 3>;
-
-/// Which edges own the samples that lie exactly on them. Left edges always do; of the horizontal ones the
-/// upper (Direct3D, Vulkan), or the lower (OpenGL drawing into a texture, seen with row 0 on top).
-enum class TieRule { kTopLeft, kBottomLeft };
 
 /// Twice the signed area, (bx-ax)(cy-ay) - (cx-ax)(by-ay): positive when a, b, c run clockwise on the screen.
 [[nodiscard]] Int128 twice_area(const GridPoint& a, const GridPoint& b, const GridPoint& c);

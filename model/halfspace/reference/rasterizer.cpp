@@ -2,37 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/reference/clip.hpp"
 #include "halfspace/reference/depth_code.hpp"
-#include "halfspace/reference/exact_triangle.hpp"
-#include "halfspace/reference/window.hpp"
+#include "halfspace/reference/methods.hpp"
+#include "halfspace/reference/pixel_rect.hpp"
+#include "halfspace/reference/triangle_method.hpp"
+#include "halfspace/reference/vertex_color.hpp"
 
 namespace halfspace::reference {
 namespace {
-
-/// Pixels first_x <= x < end_x, first_y <= y < end_y.
-struct PixelRect {
-  std::int64_t first_x = 0;
-  std::int64_t first_y = 0;
-  std::int64_t end_x = 0;
-  std::int64_t end_y = 0;
-
-  [[nodiscard]] bool contains(std::int64_t x, std::int64_t y) const {
-    return x >= first_x && x < end_x && y >= first_y && y < end_y;
-  }
-};
-
-PixelRect intersect(const PixelRect& a, const PixelRect& b) {
-  return {std::max(a.first_x, b.first_x), std::max(a.first_y, b.first_y), std::min(a.end_x, b.end_x),
-          std::min(a.end_y, b.end_y)};
-}
 
 PixelRect to_rect(const Scissor& s) {
   return {s.x, s.y, std::int64_t{s.x} + s.width, std::int64_t{s.y} + s.height};
@@ -54,24 +40,12 @@ std::pair<std::int64_t, std::int64_t> centres_between(double a, double b, std::i
   return {first, end};
 }
 
-PixelRect viewport_rect(const Command& draw, const Target& target) {
+PixelRect viewport_rect(const Command& draw, const Target& target, TieRule rule) {
   const glm::dvec4 v(draw.viewport);
-  const auto [first_x, end_x] = centres_between(v.x, v.x + v.z, target.width, true);
-  const auto [first_y, end_y] =
-      centres_between(v.y, v.y + v.w, target.height, !draw.has(Flag::kBottomLeftRule));
+  const auto [first_x, end_x] = centres_between(v.x, v.x + v.z, target.width, owns_left(rule));
+  const auto [first_y, end_y] = centres_between(v.y, v.y + v.w, target.height, owns_top(rule));
   return {first_x, first_y, end_x, end_y};
 }
-
-/// Everything about a draw that its triangles share.
-struct DrawContext {
-  const Command& draw;
-  const Options& options;
-  Storage storage;
-  PixelRect window;  ///< scissor, viewport and target
-  bool tests;
-  bool writes;
-  Surface& surface;
-};
 
 void count_up(std::uint16_t& value) {
   if (value != std::numeric_limits<std::uint16_t>::max()) ++value;
@@ -83,140 +57,132 @@ bool is_late_z(const Command& draw) {
          draw.has(Flag::kShaderSideEffects) || draw.has(Flag::kAlphaToCoverage);
 }
 
-/// A rectangle of pixels that holds the triangle.
-PixelRect bounding_box(const GridTriangle& t, int subpixel_bits) {
-  // Right shift of a negative number rounds down (C++20).
-  PixelRect box;
-  box.first_x = std::min({t[0].x, t[1].x, t[2].x}) >> subpixel_bits;
-  box.first_y = std::min({t[0].y, t[1].y, t[2].y}) >> subpixel_bits;
-  box.end_x = (std::max({t[0].x, t[1].x, t[2].x}) >> subpixel_bits) + 1;
-  box.end_y = (std::max({t[0].y, t[1].y, t[2].y}) >> subpixel_bits) + 1;
-  return box;
-}
+/// What a draw does to its surface.
+struct DepthTarget {
+  const DrawState& state;
+  Surface& surface;
+  bool tests;
+  bool writes;
+  bool has_colors;
+};
 
-double fragment_depth(const DepthPlane& plane, double offset, std::int64_t x, std::int64_t y,
-                      const Command& draw) {
-  const double depth = plane.at(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5) + offset;
-  if (!draw.has(Flag::kDepthClamp)) return depth;  // encode_depth clamps to [0,1]
-  const auto [low, high] = std::minmax({draw.depth_range.x, draw.depth_range.y});
-  return std::clamp(depth, static_cast<double>(low), static_cast<double>(high));
-}
-
-void shade_fragment(const DrawContext& c, std::int64_t x, std::int64_t y, double depth) {
-  Surface& s = c.surface;
-  const std::size_t pixel = static_cast<std::size_t>(y) * s.width + static_cast<std::size_t>(x);
-  ++s.counters.covered_fragments;
+void test_and_write(const DepthTarget& to, const Fragment& fragment, Counters& counters, Quad& quad) {
+  Surface& s = to.surface;
+  const std::size_t pixel =
+      static_cast<std::size_t>(fragment.y) * s.width + static_cast<std::size_t>(fragment.x);
+  const auto place = static_cast<std::size_t>(fragment.y % 2 * 2 + fragment.x % 2);
+  const auto bit = static_cast<std::uint8_t>(1u << place);
+  ++counters.covered_fragments;
   count_up(s.fragments[pixel]);
-  const double rounded = c.options.float32_depth ? static_cast<float>(depth) : depth;
-  const std::uint32_t code = encode_depth(rounded, c.storage);
-  if (c.tests && !depth_test(static_cast<std::uint32_t>(c.draw.depth_func), code, s.codes[pixel])) return;
-  ++s.counters.depth_passed;
+  const double rounded = to.state.options.float32_depth ? static_cast<float>(fragment.depth) : fragment.depth;
+  const std::uint32_t code = encode_depth(rounded, to.state.storage);
+  quad.mask |= bit;
+  quad.depth[place] = code;
+  if (to.tests) {
+    ++counters.depth_tested;
+    const auto func = static_cast<std::uint32_t>(to.state.command.depth_func);
+    if (!depth_test(func, code, s.codes[pixel])) return;
+  }
+  ++counters.depth_passed;
   count_up(s.survivors[pixel]);
-  if (c.writes) s.codes[pixel] = code;
+  quad.passed |= bit;
+  if (to.has_colors) s.colors[pixel] = fragment.color;
+  if (!to.writes) return;
+  ++counters.depth_written;
+  s.codes[pixel] = code;
 }
 
-enum class Fate {
-  kDegenerate,
-  kCulled,
-  kDrawn
-};  // in rising order: a triangle has the highest of its pieces
-
-/// One piece of a triangle, inside the clip volume; largest_depth is that of the whole triangle.
-Fate draw_piece(const DrawContext& c, const WindowTriangle& t, double largest_depth) {
-  const int bits = c.options.subpixel_bits;
-  Counters& counters = c.surface.counters;
-  const GridTriangle snapped = {snap(t[0], bits), snap(t[1], bits), snap(t[2], bits)};
-  const Int128 area = twice_area(snapped[0], snapped[1], snapped[2]);
-  if (area == 0) return Fate::kDegenerate;
-  const bool front = (area > 0) == c.draw.has(Flag::kFrontPositiveArea);
-  if (c.draw.has(front ? Flag::kCullFront : Flag::kCullBack)) return Fate::kCulled;
-
-  const DepthPlane plane = depth_plane(t);
-  const double offset = polygon_offset(depth_plane(on_grid(t, bits)), largest_depth, c.draw, c.storage);
-  const TieRule rule = c.draw.has(Flag::kBottomLeftRule) ? TieRule::kBottomLeft : TieRule::kTopLeft;
-  const PixelRect box = intersect(bounding_box(snapped, bits), c.window);
-  // Aligned 2x2 blocks: an even corner at or before the box, which lies in the target and so is not negative.
-  for (std::int64_t qy = box.first_y - box.first_y % 2; qy < box.end_y; qy += 2) {
-    for (std::int64_t qx = box.first_x - box.first_x % 2; qx < box.end_x; qx += 2) {
-      int covered = 0;
-      for (std::int64_t y = qy; y < qy + 2; ++y) {
-        for (std::int64_t x = qx; x < qx + 2; ++x) {
-          if (!box.contains(x, y) || !covers(snapped, pixel_centre(x, y, bits), rule)) continue;
-          ++covered;
-          shade_fragment(c, x, y, fragment_depth(plane, offset, x, y, c.draw));
-        }
-      }
-      if (covered == 0) continue;
-      ++counters.quads;
-      counters.helper_fragments += static_cast<std::uint64_t>(4 - covered);
-    }
+/// Tests and writes the fragments of one piece of a triangle, quad by quad.
+std::vector<Quad> draw_piece_quads(const DepthTarget& to, std::vector<Fragment> fragments,
+                                   Counters& counters) {
+  const auto key = [](const Fragment& f) { return std::array{f.y / 2, f.x / 2, f.y, f.x}; };
+  std::sort(fragments.begin(), fragments.end(),
+            [&](const Fragment& a, const Fragment& b) { return key(a) < key(b); });
+  std::vector<Quad> quads;
+  for (const Fragment& fragment : fragments) {
+    const auto x = static_cast<std::uint32_t>(fragment.x - fragment.x % 2);
+    const auto y = static_cast<std::uint32_t>(fragment.y - fragment.y % 2);
+    if (quads.empty() || quads.back().x != x || quads.back().y != y) quads.push_back({x, y, 0, 0, {}});
+    test_and_write(to, fragment, counters, quads.back());
   }
-  return Fate::kDrawn;
+  for (const Quad& quad : quads) {
+    const int covered = std::popcount(quad.mask);
+    ++counters.quads;
+    counters.full_quads += covered == 4 ? 1 : 0;
+    counters.helper_fragments += static_cast<std::uint64_t>(4 - covered);
+  }
+  return quads;
 }
 
 bool is_finite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-void draw_triangle(const DrawContext& c, const std::array<glm::vec4, 3>& vertices) {
-  Counters& counters = c.surface.counters;
-  ++counters.triangles;
-  Polygon polygon;
-  for (const glm::vec4& v : vertices) {
-    if (!is_finite(v)) {
-      ++counters.non_finite;
-      return;
-    }
-    polygon.push_back({v.x, v.y, v.z, v.w});
+/// The corners of a triangle of a draw; nothing where one is not finite.
+std::optional<ClipTriangle> clip_triangle(const Frame& frame, const Command& command,
+                                          std::uint32_t triangle) {
+  ClipTriangle corners;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t index = frame.indices[command.first_index + triangle * 3 + k];
+    const glm::vec4& v = frame.vertices[std::uint64_t{command.first_vertex} + index];
+    if (!is_finite(v)) return std::nullopt;
+    corners[k] = {{v.x, v.y, v.z, v.w}, vertex_color(index)};
   }
-
-  const Command& d = c.draw;
-  if (!d.has(Flag::kDepthClamp)) polygon = clip(polygon, depth_planes(d.has(Flag::kNdcZMinusOneToOne)));
-  polygon = clip(polygon, guard_band_planes(c.options.guard_band, c.options.window_limit, d.viewport.x,
-                                            d.viewport.y, d.viewport.z, d.viewport.w));
-  const bool divisible =
-      std::all_of(polygon.begin(), polygon.end(), [](const Homogeneous& v) { return v.w > 0; });
-  if (polygon.size() < 3 || !divisible) {
-    ++counters.clipped_away;
-    return;
-  }
-
-  double largest_depth = 0;
-  for (const Homogeneous& v : polygon) largest_depth = std::max(largest_depth, std::abs(to_window(v, d).z));
-
-  // What is left is convex: a fan around its first vertex.
-  Fate fate = Fate::kDegenerate;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    fate = std::max(
-        fate,
-        draw_piece(c, {to_window(polygon[0], d), to_window(polygon[i], d), to_window(polygon[i + 1], d)},
-                   largest_depth));
-  }
-  if (fate == Fate::kDegenerate) ++counters.degenerate;
-  if (fate == Fate::kCulled) ++counters.culled;
-  if (fate == Fate::kDrawn) ++counters.drawn;
+  return corners;
 }
 
-void draw(const Frame& frame, const Command& command, const Options& options, Surface& surface) {
-  const Target& target = frame.targets[command.target];
-  const PixelRect whole = {0, 0, target.width, target.height};
-  const bool may_write = options.late_z == LateZ::kOpaque || !is_late_z(command);
-  const DrawContext context = {
-      command,
-      options,
-      static_cast<Storage>(target.depth_format),
-      intersect(intersect(to_rect(command.scissor), viewport_rect(command, target)), whole),
-      command.has(Flag::kDepthTest),
-      command.has(Flag::kDepthWrite) && may_write,
-      surface};
-  for (std::uint32_t i = 0; i + 2 < command.index_count; i += 3) {
-    std::array<glm::vec4, 3> vertices;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint64_t index = frame.indices[command.first_index + i + k];
-      vertices[k] = frame.vertices[command.first_vertex + index];
-    }
-    draw_triangle(context, vertices);
+void count_fate(Fate fate, Counters& counters) {
+  switch (fate) {
+    case Fate::kClippedAway:
+      ++counters.clipped_away;
+      break;
+    case Fate::kDegenerate:
+      ++counters.degenerate;
+      break;
+    case Fate::kCulled:
+      ++counters.culled;
+      break;
+    case Fate::kDrawn:
+      ++counters.drawn;
+      break;
   }
+}
+
+TieRule rule_of(const Command& draw, const Options& options) {
+  const TieRule own = draw.has(Flag::kBottomLeftRule) ? TieRule::kBottomLeft : TieRule::kTopLeft;
+  return options.rule.value_or(own);
+}
+
+/// Draw `number` of the frame.
+void draw(const Frame& frame, const Command& command, std::uint32_t number, const Options& options,
+          Surface& surface, Observer& observer) {
+  const Method& method = method_of(options.method);
+  const Target& target = frame.targets[command.target];
+  const bool has_depth = target.depth_surface != kNoSurface;
+  const TieRule rule = rule_of(command, options);
+  const PixelRect whole = {0, 0, target.width, target.height};
+  const DrawState state = {
+      command, options, has_depth ? static_cast<Storage>(target.depth_format) : Storage::kNone,
+      intersect(intersect(to_rect(command.scissor), viewport_rect(command, target, rule)), whole), rule};
+  const bool may_write = options.late_z == LateZ::kOpaque || !is_late_z(command);
+  const DepthTarget to = {state, surface, has_depth && command.has(Flag::kDepthTest),
+                          has_depth && command.has(Flag::kDepthWrite) && may_write, method.has_colors};
+  Counters counters;
+  for (std::uint32_t i = 0; i < command.index_count / 3; ++i) {
+    ++counters.triangles;
+    const std::optional<ClipTriangle> triangle = clip_triangle(frame, command, i);
+    if (!triangle) {
+      ++counters.non_finite;
+      continue;
+    }
+    DrawnTriangle drawn = method.draw(*triangle, state);
+    count_fate(drawn.fate, counters);
+    for (std::vector<Fragment>& piece : drawn.pieces) {
+      observer.piece(number, i, draw_piece_quads(to, std::move(piece), counters));
+    }
+  }
+  surface.counters += counters;
+  observer.draw_done(number, counters);
 }
 
 void clear(const Frame& frame, const Command& command, Surface& surface) {
@@ -264,7 +230,7 @@ void check(const Frame& frame, const Options& options) {
   }
 }
 
-Surface make_surface(const Target& target) {
+Surface make_surface(const Target& target, bool has_colors) {
   Surface s;
   s.index = target.depth_surface;
   s.width = target.width;
@@ -273,25 +239,45 @@ Surface make_surface(const Target& target) {
   s.codes.assign(pixels, encode_depth(1.0, static_cast<Storage>(target.depth_format)));
   s.fragments.assign(pixels, 0);
   s.survivors.assign(pixels, 0);
+  if (has_colors) s.colors.assign(pixels, {});
   return s;
 }
 
 }  // namespace
 
-std::vector<Surface> rasterize(const Frame& frame, const Options& options) {
+Counters& Counters::operator+=(const Counters& other) {
+  for (const auto counter :
+       {&Counters::triangles, &Counters::non_finite, &Counters::clipped_away, &Counters::degenerate,
+        &Counters::culled, &Counters::drawn, &Counters::covered_fragments, &Counters::depth_tested,
+        &Counters::depth_passed, &Counters::depth_written, &Counters::quads, &Counters::full_quads,
+        &Counters::helper_fragments}) {
+    this->*counter += other.*counter;
+  }
+  return *this;
+}
+
+std::vector<Surface> rasterize(const Frame& frame, const Options& options, Observer* observer) {
   check(frame, options);
+  const bool has_colors = method_of(options.method).has_colors;
+  Observer nobody;
   std::map<std::uint32_t, Surface> surfaces;
   std::map<std::uint32_t, Storage> storage;
   for (const Target& target : frame.targets) {
     if (target.depth_surface == kNoSurface) continue;
-    surfaces.try_emplace(target.depth_surface, make_surface(target));
+    surfaces.try_emplace(target.depth_surface, make_surface(target, has_colors));
     storage.try_emplace(target.depth_surface, static_cast<Storage>(target.depth_format));
   }
+  std::uint32_t draws = 0;
   for (const Command& command : frame.commands) {
-    const std::uint32_t index = frame.targets[command.target].depth_surface;
-    if (index == kNoSurface) continue;
-    if (command.kind == CommandKind::kClear) clear(frame, command, surfaces.at(index));
-    if (command.kind == CommandKind::kDraw) draw(frame, command, options, surfaces.at(index));
+    const Target& target = frame.targets[command.target];
+    const bool has_depth = target.depth_surface != kNoSurface;
+    if (command.kind == CommandKind::kClear && has_depth) {
+      clear(frame, command, surfaces.at(target.depth_surface));
+    }
+    if (command.kind != CommandKind::kDraw) continue;
+    Surface no_surface = has_depth ? Surface{} : make_surface(target, has_colors);
+    draw(frame, command, draws++, options, has_depth ? surfaces.at(target.depth_surface) : no_surface,
+         observer != nullptr ? *observer : nobody);
   }
   std::vector<Surface> result;
   for (auto& [index, surface] : surfaces) {

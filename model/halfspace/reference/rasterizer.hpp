@@ -1,33 +1,21 @@
-/// The textbook rasterizer: a whole frame, one triangle after the other, one pixel after the other. Slow and
-/// plain on purpose: it shares no code with the units and is what they are compared with.
+/// A textbook rasterizer: a whole frame, one triangle after the other. Slow and plain on purpose: it shares
+/// no code with the units. How a triangle becomes fragments is exchangeable (methods.hpp); `exact` is what
+/// the units are compared with.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "halfspace/reference/clip.hpp"
+#include "halfspace/reference/options.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace::reference {
 
-/// What a draw does whose shader may change the outcome of the depth test after it ran: one that may discard,
-/// writes depth, has side effects or feeds alpha to coverage, unless the program forces early tests.
-enum class LateZ {
-  kOpaque,   ///< it tests and writes early, like any other
-  kNoWrite,  ///< it tests early, and does not write
-};
-
-struct Options {
-  int subpixel_bits = 8;  ///< 4 to 8; anything else throws InputError
-  LateZ late_z = LateZ::kOpaque;
-  double guard_band = 32;  ///< times the clip volume, in x and in y
-  double window_limit =
-      32767;  ///< pixels each way from the window origin; tightens the guard band where needed
-  bool float32_depth =
-      true;  ///< a fragment's depth is rounded to float32 before a unorm format rounds it again
-};
-
-/// What happened to the triangles of one depth surface. A triangle is counted once, even if clipping cuts it
-/// into several pieces: non_finite + clipped_away + degenerate + culled + drawn = triangles.
+/// What happened to the triangles of a draw or a depth surface. A triangle is counted once, even if clipping
+/// cuts it into several pieces: non_finite + clipped_away + degenerate + culled + drawn = triangles.
 struct Counters {
   std::uint64_t triangles = 0;     ///< in the draws, before anything
   std::uint64_t non_finite = 0;    ///< dropped: a coordinate is infinite or not a number
@@ -36,9 +24,14 @@ struct Counters {
   std::uint64_t culled = 0;        ///< faces the culled way
   std::uint64_t drawn = 0;         ///< the others, whether they cover a sample or not
   std::uint64_t covered_fragments = 0;
-  std::uint64_t depth_passed = 0;
-  std::uint64_t quads = 0;  ///< aligned 2x2 blocks with a covered pixel, for each piece of a triangle
+  std::uint64_t depth_tested = 0;
+  std::uint64_t depth_passed = 0;  ///< with those that are not tested
+  std::uint64_t depth_written = 0;
+  std::uint64_t quads = 0;       ///< aligned 2x2 blocks with a covered pixel, for each piece of a triangle
+  std::uint64_t full_quads = 0;  ///< of these, those with four
   std::uint64_t helper_fragments = 0;  ///< pixels of these blocks that are not covered
+
+  Counters& operator+=(const Counters& other);
 };
 
 /// A depth surface after the frame. Arrays are row by row, row 0 on top. A surface that is never cleared
@@ -52,11 +45,31 @@ struct Surface {
   std::vector<std::uint16_t>
       fragments;  ///< fragments that covered the pixel; stays at 65535 when it gets there
   std::vector<std::uint16_t> survivors;  ///< of these, the ones that passed the depth test
+  std::vector<Color> colors;  ///< of the fragment that passed last; empty where the method has no colours
   Counters counters;
 };
 
-/// All depth surfaces of `frame` after its last command, by index. Draws without one leave no trace.
-/// Throws InputError where the frame contradicts itself.
-[[nodiscard]] std::vector<Surface> rasterize(const Frame& frame, const Options& options);
+/// An aligned block of 2x2 pixels of which a piece of a triangle covers at least one.
+struct Quad {
+  std::uint32_t x = 0;  ///< top left pixel
+  std::uint32_t y = 0;
+  std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
+  std::uint8_t passed = 0;  ///< the same bits after the depth test
+  std::array<std::uint32_t, 4> depth{};  ///< codes; 0 where not covered
+};
+
+/// Sees what is drawn, in order.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// The quads of one piece of a triangle, row by row; draws and triangles of a draw count from 0.
+  virtual void piece(std::uint32_t /*draw*/, std::uint32_t /*triangle*/, std::span<const Quad> /*quads*/) {}
+  virtual void draw_done(std::uint32_t /*draw*/, const Counters& /*of_draw*/) {}
+};
+
+/// All depth surfaces of `frame` after its last command, by index. Draws without one leave no trace there,
+/// but `observer` sees them. Throws InputError where the frame contradicts itself.
+[[nodiscard]] std::vector<Surface> rasterize(const Frame& frame, const Options& options,
+                                             Observer* observer = nullptr);
 
 }  // namespace halfspace::reference

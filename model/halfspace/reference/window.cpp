@@ -6,16 +6,19 @@
 namespace halfspace::reference {
 
 WindowVertex to_window(const Homogeneous& v, const Command& draw) {
-  const double range_near = draw.depth_range.x;
-  const double range_far = draw.depth_range.y;
-  const double ndc_z = v.z / v.w;
   WindowVertex result;
   result.x = draw.viewport.x + (v.x / v.w + 1) * draw.viewport.z / 2;
   result.y = draw.viewport.y + (v.y / v.w + 1) * draw.viewport.w / 2;
-  result.z = draw.has(Flag::kNdcZMinusOneToOne)
-                 ? (range_far - range_near) / 2 * ndc_z + (range_far + range_near) / 2
-                 : range_near + ndc_z * (range_far - range_near);
+  result.z = to_depth(v.z / v.w, draw);
   return result;
+}
+
+double to_depth(double ndc_z, const Command& draw) {
+  const double range_near = draw.depth_range.x;
+  const double range_far = draw.depth_range.y;
+  return draw.has(Flag::kNdcZMinusOneToOne)
+             ? (range_far - range_near) / 2 * ndc_z + (range_far + range_near) / 2
+             : range_near + ndc_z * (range_far - range_near);
 }
 
 GridPoint snap(const WindowVertex& v, int subpixel_bits) {
@@ -62,6 +65,13 @@ double polygon_offset(const DepthPlane& plane, double largest_depth, const Comma
   if (draw.offset_clamp > 0) return std::min(offset, static_cast<double>(draw.offset_clamp));
   if (draw.offset_clamp < 0) return std::max(offset, static_cast<double>(draw.offset_clamp));
   return offset;
+}
+
+double offset_and_clamped(double depth, double offset, const Command& draw) {
+  const double moved = depth + offset;
+  if (!draw.has(Flag::kDepthClamp)) return moved;
+  const auto [low, high] = std::minmax({draw.depth_range.x, draw.depth_range.y});
+  return std::clamp(moved, static_cast<double>(low), static_cast<double>(high));
 }
 
 }  // namespace halfspace::reference

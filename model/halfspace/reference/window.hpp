@@ -29,6 +29,9 @@ using WindowTriangle = std::array<WindowVertex, 3>;
 /// The triangle with its corners moved to that grid.
 [[nodiscard]] WindowTriangle on_grid(const WindowTriangle& t, int subpixel_bits);
 
+/// Depth at a position, of z / w there and the depth range of `draw`.
+[[nodiscard]] double to_depth(double ndc_z, const Command& draw);
+
 /// Depth as a linear function of the window position: z + dzdx * (x - x0) + dzdy * (y - y0).
 struct DepthPlane {
   double x0 = 0;
@@ -50,5 +53,9 @@ struct DepthPlane {
 /// clipping left.
 [[nodiscard]] double polygon_offset(const DepthPlane& plane, double largest_depth, const Command& draw,
                                     Storage storage);
+
+/// What depth state makes of the depth of a fragment: the polygon offset, and with depth clamp the depth
+/// range. encode_depth() clamps to [0,1] in any case.
+[[nodiscard]] double offset_and_clamped(double depth, double offset, const Command& draw);
 
 }  // namespace halfspace::reference

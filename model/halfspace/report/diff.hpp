@@ -23,7 +23,8 @@ struct ResultDifference {
 
 /// Compares quads.npy, tiles.npy, the arrays of every surface, and the counters and cycles in stats.json (not
 /// configuration, tool versions, pictures and timeline). Where only one run has time, what has to do with it
-/// is left out, the field `cycle` of the quads too. Throws InputError where a folder is not a result or a
+/// is left out, the field `cycle` of the quads too; where only one run is a reference rasterizer's, what only
+/// the other counts. Throws InputError where a folder is not a result or a
 /// file is damaged.
 ResultDifference compare_results(const std::filesystem::path& a, const std::filesystem::path& b);
 

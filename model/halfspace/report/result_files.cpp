@@ -53,7 +53,9 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     write_png(picture("shaded"), shaded_picture(frame, result.frame, i));
     write_png(picture("depth"), depth_picture(surface));
     write_png(picture("overdraw"), overdraw_picture(surface));
-    write_png(picture("tiles"), tile_picture(surface, config.tile_walker.tile_size));
+    if (!result.reference) {  // a reference has no tiles
+      write_png(picture("tiles"), tile_picture(surface, config.tile_walker.tile_size));
+    }
     write_png(picture("quads"), quad_picture(surface));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);

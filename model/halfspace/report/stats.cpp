@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -16,15 +17,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json counters_json(const Counters& counters) {
+/// What reference rasterizers count: they have no blocks, tiles and caches.
+constexpr std::array<std::string_view, 11> kReferenceCounters{
+    "front_end.triangles",       "front_end.non_finite",     "front_end.clipped_away", "quad_generator.quads",
+    "quad_generator.quads_full", "quad_generator.fragments", "quad_generator.helpers", "early_z.tested",
+    "early_z.untested",          "early_z.survivors",        "early_z.written"};
+
+Json counters_json(const Counters& counters, bool of_reference) {
   Json json;
   Counters::units([&](const char* unit_name, auto unit) {
     using Unit = std::remove_cvref_t<decltype(counters.*unit)>;
-    Json& group = json[unit_name];
-    Unit::fields(
-        [&](const char* name, const char* /*help*/, auto member) { group[name] = counters.*unit.*member; });
+    Unit::fields([&](const char* name, const char* /*help*/, auto member) {
+      const std::string path = fmt::format("{}.{}", unit_name, name);
+      if (!of_reference || std::ranges::find(kReferenceCounters, path) != kReferenceCounters.end()) {
+        json[unit_name][name] = counters.*unit.*member;
+      }
+    });
   });
   return json;
+}
+
+Json reference_json(const ReferenceRun& reference) {
+  return {{"name", reference.name},
+          {"fill_rule", reference.fill_rule.empty() ? Json() : Json(reference.fill_rule)},
+          {"degenerate", reference.degenerate},
+          {"culled", reference.culled},
+          {"drawn", reference.drawn}};
 }
 
 double ratio(std::uint64_t part, std::uint64_t whole) {
@@ -98,6 +116,24 @@ Json quad_merging_json(const QuadMergingCounters& counters) {
   return json;
 }
 
+Json frame_json(const Frame& frame, const FrameResult& result, bool of_reference) {
+  Json json = {{"name", frame.name},
+               {"targets", frame.targets.size()},
+               {"commands", frame.commands.size()},
+               {"draws", result.draws.size()},
+               {"draws_not_filled", result.draws_not_filled},
+               {"depth_clears", result.clears}};
+  if (!of_reference) {
+    json["flushed_lines"] = result.flushed_lines;
+    json["flushed_bytes"] = result.flushed_bytes;
+  }
+  json["counters"] = counters_json(result.counters, of_reference);
+  if (!of_reference) {
+    json["drawn_clears"] = counters_json(result.drawn_clears, of_reference);
+  }
+  return json;
+}
+
 Json stalls_json(const StallPlan& plan) {
   Json json = Json::object();
   for (std::size_t i = 0; i < kStallPoints; ++i) {
@@ -139,12 +175,17 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                  const std::optional<WhatIfReport>& what_if, const std::vector<std::string>& files) {
   const FrameResult& result = run.frame;
   const bool packets = info(fidelity).packets;
+  const bool of_reference = run.reference.has_value();
   Json json;
   json["schema"] = kStatsSchema;
   json["schema_version"] = kStatsSchemaVersion;
   json["tool"] = {{"name", "halfspace"}, {"version", HALFSPACE_VERSION}, {"compiler", __VERSION__}};
-  json["fidelity"] = info(fidelity).name;
-  json["core"] = info(fidelity).core ? Json(kCoreName[static_cast<std::size_t>(result.core)]) : Json();
+  json["fidelity"] = of_reference ? Json() : Json(info(fidelity).name);
+  if (of_reference) {
+    json["reference"] = reference_json(*run.reference);
+  }
+  json["core"] =
+      info(fidelity).core && !of_reference ? Json(kCoreName[static_cast<std::size_t>(result.core)]) : Json();
   json["cycles"] = run.cycles ? Json(run.cycles->cycles) : Json();
   json["seed"] = packets ? Json(stalls.seed) : Json();
   json["stalls"] = packets ? stalls_json(stalls) : Json();
@@ -155,16 +196,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   if (what_if) {
     json["what_if"] = what_if_json(*what_if);
   }
-  json["frame"] = {{"name", frame.name},
-                   {"targets", frame.targets.size()},
-                   {"commands", frame.commands.size()},
-                   {"draws", result.draws.size()},
-                   {"draws_not_filled", result.draws_not_filled},
-                   {"depth_clears", result.clears},
-                   {"flushed_lines", result.flushed_lines},
-                   {"flushed_bytes", result.flushed_bytes},
-                   {"counters", counters_json(result.counters)},
-                   {"drawn_clears", counters_json(result.drawn_clears)}};
+  json["frame"] = frame_json(frame, result, of_reference);
   if (run.cycles) {
     const std::uint64_t cycles = run.cycles->cycles;
     json["frame"]["time"] = {{"cycles", cycles},
@@ -182,7 +214,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                                 {"format", name(surface.format)},
                                 {"width", surface.codes.width()},
                                 {"height", surface.codes.height()},
-                                {"counters", counters_json(surface.counters)}});
+                                {"counters", counters_json(surface.counters, of_reference)}});
   }
   json["draws"] = Json::array();
   for (std::size_t i = 0; i < result.draws.size(); ++i) {
@@ -193,7 +225,7 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"source_event", command.source_event},
                              {"target", command.target},
                              {"surface", draw.surface == kNoSurface ? Json() : Json(draw.surface)},
-                             {"counters", counters_json(draw.counters)}});
+                             {"counters", counters_json(draw.counters, of_reference)}});
     if (run.cycles) {
       json["draws"].back()["time"] = draw_time_json(run.cycles->draws[i], draw.counters.early_z);
     }

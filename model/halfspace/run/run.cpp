@@ -53,7 +53,8 @@ RunResult timed(TimedResult result) {
           .cycles = std::move(result.cycles),
           .times = std::move(result.times),
           .rtl = {},
-          .quad_merging = {}};
+          .quad_merging = {},
+          .reference = {}};
 }
 
 RunResult verilated(const Frame& frame, const Config& config, const EngineOptions& engine,
@@ -76,7 +77,8 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
               .cycles = {},
               .times = {},
               .rtl = {},
-              .quad_merging = {}};
+              .quad_merging = {},
+              .reference = {}};
     case Fidelity::kRecurrence:
       return timed(run_recurrence(frame, config, engine));
     case Fidelity::kSystemc:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "halfspace/machine/frame_result.hpp"
@@ -51,12 +52,22 @@ constexpr const FidelityInfo& info(Fidelity fidelity) {
   return kFidelityInfo[static_cast<std::size_t>(fidelity)];
 }
 
+/// The reference rasterizer that made a result, and what it counts of the frame that no unit does.
+struct ReferenceRun {
+  std::string name;
+  std::string fill_rule;         ///< empty: that of each draw
+  std::uint64_t degenerate = 0;  ///< triangles
+  std::uint64_t culled = 0;
+  std::uint64_t drawn = 0;
+};
+
 struct RunResult {
   FrameResult frame;
   std::optional<FrameCycles> cycles;              ///< where the fidelity has time
   PacketTimes times;                              ///< on request, where the fidelity has time
   std::optional<rtl::PacketReport> rtl;           ///< of `rtl`: where it differs from the model
   std::optional<QuadMergingResult> quad_merging;  ///< on request
+  std::optional<ReferenceRun> reference;          ///< none: the machine made it
 };
 
 }  // namespace halfspace

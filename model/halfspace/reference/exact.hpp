@@ -1,0 +1,13 @@
+/// `exact`: coverage by its definition.
+#pragma once
+
+#include <vector>
+
+#include "halfspace/reference/coverage_method.hpp"
+
+namespace halfspace::reference {
+
+/// Asks covers() for each pixel of the bounding box.
+void cover_exactly(const Piece& piece, std::vector<Fragment>& fragments);
+
+}  // namespace halfspace::reference
