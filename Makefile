@@ -32,6 +32,13 @@ test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, an
 	ctest --test-dir build/debug -L slow --output-on-failure -j 2
 	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
 
+.PHONY: prove
+prove: ## Install what is missing, and prove the arithmetic: proofs/coq and proofs/gappa.
+	@sh tools/install_packages.sh tools/packages-prove.txt
+	rm -rf build/proofs
+	proofs/coq/check.py build/proofs/coq
+	proofs/gappa/check.sh build/proofs/gappa
+
 .PHONY: rtl
 rtl: build/release/build.ninja ## Verilate the pipeline of every named configuration, for --fidelity rtl.
 	@sh tools/install_packages.sh tools/packages-rtl.txt
@@ -147,7 +154,7 @@ clean: ## Remove everything that was built.
 # Each figure alone by its name, as `make bench-frames`: see tools/write_figures.py.
 FIGURES := demo-figure bench-frames bench-roof bench-stages bench-surfaces bench-time bench-sampled \
            depth-traffic hi-z-kills hi-z-by-time hi-z-machines late-z small-triangles quad-merging reference-figure \
-           what-if what-if-demo what-if-lod ledger-demo ledger-frames
+           what-if what-if-demo what-if-lod ledger-demo ledger-frames stress-sharpness
 .PHONY: docs-figures ledger-picture $(FIGURES)
 docs-figures: build/release/build.ninja ## Run the commands whose output the pages show; write it into them.
 	cmake --build --preset release --target halfspace_cli halfspace_reference_tool

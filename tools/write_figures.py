@@ -494,6 +494,12 @@ def ledger_frames(tools):
     return marked("\n".join(text), map(frame_name, tools.captured))
 
 
+def stress_sharpness(tools):
+    """Which families of the stress campaign find which wrong rasterizer."""
+    options = "--sharpness --cases 16 --depth-bound 1"
+    return f"    halfspace stress {options}\n\n{output(tools.program, 'stress', *options.split())}"
+
+
 FIGURES = {
     "demo": ("README.md", demo),
     "bench-frames": ("README.md", bench_frames),
@@ -514,6 +520,7 @@ FIGURES = {
     "what-if": ("docs/guides/whatif.md", what_if),
     "ledger-demo": ("docs/guides/ledger.md", ledger_demo),
     "ledger-frames": ("docs/guides/ledger.md", ledger_frames),
+    "stress-sharpness": ("docs/guides/stress.md", stress_sharpness),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
     "bench-speed": ("docs/guides/speed.md", bench_speed),
@@ -536,10 +543,9 @@ def main(known, default, description):
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    names = ", ".join(known)
     others = ", ".join(name for name in known if name not in default)
     which = f"all but {others}" if others else "all"
-    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{names} (default: {which})")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"{', '.join(known)} (default: {which})")
     parser.add_argument("--check", action="store_true", help="compare with the pages, write nothing")
     build = ROOT / "build/release"
     parser.add_argument("--program", type=pathlib.Path, default=build / "bin/halfspace")

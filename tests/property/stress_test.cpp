@@ -11,6 +11,7 @@
 #include "halfspace/stress/campaign.hpp"
 #include "halfspace/stress/campaign_state.hpp"
 #include "halfspace/stress/homogeneous_oracle.hpp"
+#include "halfspace/stress/wrong_rasterizer.hpp"
 #include "random.hpp"
 
 using namespace halfspace;
@@ -179,6 +180,18 @@ TEST_CASE("stress: a campaign that is cut off goes on where it was") {
   part.seed += 1;
   CHECK_THROWS_WITH(run(part, textbook), Catch::Contains("the campaign's seed is"));
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("stress: every rasterizer that is wrong on purpose is found", "[property]") {
+  CAPTURE(seed());
+  CampaignPlan plan = plan_for(DepthFormat::kUnorm24, 8);
+  plan.depth.bound = 1;
+  for (const WrongRasterizer& wrong : wrong_rasterizers()) {
+    CAPTURE(wrong.name);
+    CHECK(run(plan, *wrong_subject(wrong, 8)).sum().errors() > 0);
+  }
+  CHECK_THROWS_WITH(wrong_rasterizer("right"),
+                    Catch::Contains("wrong rasterizer is 'right'; it must be one of"));
 }
 
 TEST_CASE("stress: errors name what is legal") {

@@ -15,6 +15,8 @@
 #include "halfspace/stress/campaign_report.hpp"
 #include "halfspace/stress/engine_subject.hpp"
 #include "halfspace/stress/exhaustive.hpp"
+#include "halfspace/stress/reference_subject.hpp"
+#include "halfspace/stress/wrong_rasterizer.hpp"
 
 namespace halfspace {
 namespace {
@@ -34,6 +36,7 @@ struct StressCommand {
   std::string engine;
   std::string write;
   std::string out;
+  bool sharpness = false;
   bool exhaustive = false;
   bool units = false;
   std::uint32_t every = 1;
@@ -85,7 +88,14 @@ std::unique_ptr<stress::Subject> make_subject(const StressCommand& command, Fide
   if (kind == "files" && !path.empty()) {
     return stress::files_subject(path);
   }
-  throw InputError(fmt::format("--engine is '{}'; it must be library:FILE or files:DIR", command.engine));
+  if (kind == "reference") {
+    return stress::reference_subject(path, config.raster.sub_pixel_bits);
+  }
+  if (kind == "wrong") {
+    return stress::wrong_subject(stress::wrong_rasterizer(path), config.raster.sub_pixel_bits);
+  }
+  throw InputError(fmt::format(
+      "--engine is '{}'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME", command.engine));
 }
 
 /// All triangles of a small grid. Returns the exit status.
@@ -113,6 +123,30 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
   return tally.errors() == 0 ? 0 : 1;
 }
 
+/// Runs the campaign on every rasterizer that is wrong on purpose. Returns the exit status: 0 where all are
+/// found.
+int sharpness_command(const StressCommand& command, const Config& config) {
+  stress::CampaignPlan plan = plan_of(command, config);
+  plan.folder.clear();
+  bool all_found = true;
+  fmt::print("| rasterizer | what is wrong | errors | families that find it |\n|---|---|---:|---|\n");
+  for (const stress::WrongRasterizer& wrong : stress::wrong_rasterizers()) {
+    const std::unique_ptr<stress::Subject> subject =
+        stress::wrong_subject(wrong, config.raster.sub_pixel_bits);
+    const stress::CampaignState state = stress::run_campaign(plan, *subject, [](const auto&) {});
+    std::string found;
+    for (const stress::FamilyState& family : state.families) {
+      if (family.tally.errors() != 0) {
+        found += fmt::format("{}{}", found.empty() ? "" : ", ", family.family);
+      }
+    }
+    all_found &= !found.empty();
+    fmt::print("| `{}` | {} | {} | {} |\n", wrong.name, wrong.wrong, state.sum().errors(),
+               found.empty() ? "**none**" : found);
+  }
+  return all_found ? 0 : 1;
+}
+
 /// Returns the exit status.
 int stress_command(const StressCommand& command) {
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -123,6 +157,9 @@ int stress_command(const StressCommand& command) {
   const Config config = command.machine.config();
   if (command.exhaustive || command.units) {
     return exhaustive_command(command, fidelity, config, options);
+  }
+  if (command.sharpness) {
+    return sharpness_command(command, config);
   }
   const stress::CampaignPlan plan = plan_of(command, config);
   if (!command.write.empty()) {
@@ -169,9 +206,11 @@ void add_stress_command(CLI::App& app, int& status) {
       ->capture_default_str();
   options->core.add_to(*command);
   command
-      ->add_option("--engine", options->engine,
-                   "somebody else's: library:FILE, which has the function of halfspace_rasterizer.h, or "
-                   "files:DIR, results for the frames of --write")
+      ->add_option(
+          "--engine", options->engine,
+          "another rasterizer: library:FILE, which has the function of halfspace_rasterizer.h; files:DIR, "
+          "results for the frames of --write; reference:NAME, a textbook rasterizer; wrong:NAME, one that "
+          "is wrong on purpose")
       ->type_name("KIND:PATH");
   command->add_option("--write", options->write, "instead: write the first --cases of each family as frames")
       ->type_name("DIR");
@@ -203,6 +242,9 @@ void add_stress_command(CLI::App& app, int& status) {
           "--out", options->out,
           "folder for the report, its cases, and the state: the same command goes on where it was cut off")
       ->type_name("DIR");
+  command->add_flag(
+      "--sharpness", options->sharpness,
+      "instead: the campaign on rasterizers that are wrong on purpose; exit status 1 where one is not found");
   CLI::Option* exhaustive = command->add_flag("--exhaustive", options->exhaustive,
                                               "instead: all triangles with vertices on the 1/16 grid of 2x2 "
                                               "pixels, on the engine (4 sub-pixel bits)");

@@ -12,7 +12,6 @@
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/depth_code.hpp"
-#include "halfspace/reference/methods.hpp"
 #include "halfspace/reference/pixel_rect.hpp"
 #include "halfspace/reference/triangle_method.hpp"
 #include "halfspace/reference/vertex_color.hpp"
@@ -155,8 +154,7 @@ TieRule rule_of(const Command& draw, const Options& options) {
 
 /// Draw `number` of the frame.
 void draw(const Frame& frame, const Command& command, std::uint32_t number, const Options& options,
-          Surface& surface, Observer& observer) {
-  const Method& method = method_of(options.method);
+          const Method& method, Surface& surface, Observer& observer) {
   const Target& target = frame.targets[command.target];
   const bool has_depth = target.depth_surface != kNoSurface;
   const TieRule rule = rule_of(command, options);
@@ -257,8 +255,13 @@ Counters& Counters::operator+=(const Counters& other) {
 }
 
 std::vector<Surface> rasterize(const Frame& frame, const Options& options, Observer* observer) {
+  return rasterize(frame, options, method_of(options.method), observer);
+}
+
+std::vector<Surface> rasterize(const Frame& frame, const Options& options, const Method& method,
+                               Observer* observer) {
   check(frame, options);
-  const bool has_colors = method_of(options.method).has_colors;
+  const bool has_colors = method.has_colors;
   Observer nobody;
   std::map<std::uint32_t, Surface> surfaces;
   std::map<std::uint32_t, Storage> storage;
@@ -276,7 +279,7 @@ std::vector<Surface> rasterize(const Frame& frame, const Options& options, Obser
     }
     if (command.kind != CommandKind::kDraw) continue;
     Surface no_surface = has_depth ? Surface{} : make_surface(target, has_colors);
-    draw(frame, command, draws++, options, has_depth ? surfaces.at(target.depth_surface) : no_surface,
+    draw(frame, command, draws++, options, method, has_depth ? surfaces.at(target.depth_surface) : no_surface,
          observer != nullptr ? *observer : nobody);
   }
   std::vector<Surface> result;

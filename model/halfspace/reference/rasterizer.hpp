@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "halfspace/reference/clip.hpp"
+#include "halfspace/reference/methods.hpp"
 #include "halfspace/reference/options.hpp"
 #include "halfspace/scene/frame.hpp"
 
@@ -70,6 +71,10 @@ class Observer {
 /// All depth surfaces of `frame` after its last command, by index. Draws without one leave no trace there,
 /// but `observer` sees them. Throws InputError where the frame contradicts itself.
 [[nodiscard]] std::vector<Surface> rasterize(const Frame& frame, const Options& options,
+                                             Observer* observer = nullptr);
+
+/// The same by a method that need not be one of methods(); `options.method` is not looked at.
+[[nodiscard]] std::vector<Surface> rasterize(const Frame& frame, const Options& options, const Method& method,
                                              Observer* observer = nullptr);
 
 }  // namespace halfspace::reference
