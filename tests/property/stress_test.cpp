@@ -7,10 +7,10 @@
 #include <string>
 
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/stress/campaign.hpp"
 #include "halfspace/stress/campaign_state.hpp"
 #include "halfspace/stress/homogeneous_oracle.hpp"
+#include "halfspace/stress/reference_picture.hpp"
 #include "halfspace/stress/wrong_rasterizer.hpp"
 #include "random.hpp"
 
@@ -30,14 +30,7 @@ class Textbook final : public Subject {
   [[nodiscard]] std::string name() const override { return "textbook"; }
 
   Picture draw(const Frame& frame) override {
-    reference::Options options;
-    options.guard_band = 1e9;  // only the window's limit
-    const reference::Surface surface = reference::rasterize(frame, options).at(0);
-    Picture picture{.width = surface.width,
-                    .height = surface.height,
-                    .fragments = {surface.fragments.begin(), surface.fragments.end()},
-                    .survivors = {surface.survivors.begin(), surface.survivors.end()},
-                    .codes = surface.codes};
+    Picture picture = reference_picture(frame, 8, reference::method_of("exact"));
     change_(picture);
     return picture;
   }

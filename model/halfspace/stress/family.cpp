@@ -21,6 +21,7 @@ constexpr std::array kFamilies{
     Family{"sub_pixel", "within a pixel, most of them around a sample", kDefinition, sub_pixel},
     Family{"on_samples", "vertices and edges on samples", kDefinition, on_samples},
     Family{"collinear", "without area, or a sub-pixel from it", kDefinition, collinear},
+    Family{"near_miss", "edges that pass a sample at the least distance there is, or go through it", kDefinition, near_miss},
     Family{"guard_band", "vertices at the corners and edges of the guard band", kDefinition, guard_band},
     Family{"fan", "fans around a sample", "the sample belongs to one triangle; each as the definition has it", fan},
     Family{"mesh", "jittered, tiling the plane, with T-junctions", "each sample exactly once", mesh},

@@ -36,6 +36,7 @@ Case sliver(const Precision& precision, std::uint64_t seed);
 Case sub_pixel(const Precision& precision, std::uint64_t seed);
 Case on_samples(const Precision& precision, std::uint64_t seed);
 Case collinear(const Precision& precision, std::uint64_t seed);
+Case near_miss(const Precision& precision, std::uint64_t seed);
 Case guard_band(const Precision& precision, std::uint64_t seed);
 
 Case fan(const Precision& precision, std::uint64_t seed);

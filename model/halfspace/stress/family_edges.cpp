@@ -111,6 +111,30 @@ Case collinear(const Precision& precision, std::uint64_t seed) {
   return list.take_defined();
 }
 
+Case near_miss(const Precision& precision, std::uint64_t seed) {
+  DrawList list(precision, any_size(seed), seed);
+  list.draw();
+  const std::int64_t far = 32766 * list.one();
+  for (int n = 0; n < 60; ++n) {
+    const GridPoint sample = list.centre(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
+    const std::int64_t reach = std::int64_t{1} << list.between(2, precision.sub_pixel_bits + 12);
+    const std::int64_t dx = list.between(-reach, reach);
+    const std::int64_t dy = list.between(-reach, reach);
+    const auto [gcd, u, v] = bezout(dx, dy);
+    if (gcd != 1) {
+      continue;  // a line through more points of the grid passes the sample farther away
+    }
+    // The middle of the edge, from which the sample is as far as the nearest points beside the line, or on
+    // it.
+    const std::int64_t beside = list.between(-1, 1);
+    const GridPoint middle{sample.x - v * beside, sample.y + u * beside};
+    const GridPoint third{list.between(-far, far), list.between(-far, far)};
+    list.add(list.shuffled(
+        {GridPoint{middle.x - dx, middle.y - dy}, GridPoint{middle.x + dx, middle.y + dy}, third}));
+  }
+  return list.take_defined();
+}
+
 Case guard_band(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, any_size(seed), seed);
   list.draw();

@@ -6,9 +6,11 @@
 
 namespace halfspace::stress {
 
-/// Clips at the limit of the window only, as the pipeline does.
+/// Clips far outside of the pipeline's guard band, so that nothing is cut that the definition has whole; a
+/// depth is rounded once.
 inline Picture reference_picture(const Frame& frame, int sub_pixel_bits, const reference::Method& method) {
-  const reference::Options options{.subpixel_bits = sub_pixel_bits, .guard_band = 1e9};
+  const reference::Options options{
+      .subpixel_bits = sub_pixel_bits, .guard_band = 1e9, .window_limit = 1 << 20, .float32_depth = false};
   const reference::Surface surface = reference::rasterize(frame, options, method).at(0);
   return {.width = surface.width,
           .height = surface.height,
