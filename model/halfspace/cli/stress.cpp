@@ -107,10 +107,6 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
   if (command.units) {
     tally = stress::check_units(command.every, command.threads, progress);
   } else {
-    if (config.raster.sub_pixel_bits != stress::kGridBits) {
-      throw InputError(fmt::format("raster.sub_pixel_bits is {}; of --exhaustive it must be {}",
-                                   config.raster.sub_pixel_bits, stress::kGridBits));
-    }
     tally = stress::check_subject(*make_subject(command, fidelity, config, options), command.every, progress);
   }
   fmt::print("{} triangles, {} of them without area; {} samples: {} wrong\n", tally.triangles,

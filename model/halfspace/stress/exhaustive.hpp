@@ -62,9 +62,9 @@ struct ExhaustiveTally {
 ExhaustiveTally check_units(std::uint32_t every, int threads,
                             const std::function<void(std::size_t)>& progress);
 
-/// Draws the same triangles, in one winding in one quad, as frames of many triangles with a subject of 4
-/// sub-pixel bits, and compares each frame's fragments with the sums of the definition. An engine that
-/// compares its own packets (the RTL) throws where they differ.
+/// Draws the same triangles, in one winding in one quad, as frames of many triangles, and compares each
+/// frame's fragments with the sums of the definition. An engine that compares its own packets (the RTL)
+/// throws where they differ.
 ExhaustiveTally check_subject(Subject& subject, std::uint32_t every,
                               const std::function<void(std::size_t)>& progress);
 
