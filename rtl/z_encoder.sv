@@ -127,7 +127,8 @@ module z_encoder
           end
 
           assign this_one   = half_q[5] == 1'(h) && shift == coded_shift_t'(s);
-          assign line[h][s] = !this_one ? '0 : plane_fits[s] ? plane : ends;
+          assign line[h][s] = (this_one & plane_fits[s] ? plane : '0)
+                              | (this_one & ~plane_fits[s] ? ends : '0);
         end else begin : gen_no_size
           assign line[h][s] = '0;
         end
@@ -162,7 +163,7 @@ module z_encoder
   always_ff @(posedge clk_i) begin
     if (valid_q[Last]) begin
       shift_o <= shift;
-      data_o  <= shift == '0 ? plain : coded;
+      data_o  <= coded | (shift == '0 ? plain : '0);
     end
   end
   assign valid_o = valid_q[ZEncodeLatency];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "halfspace/reference/depth_code.hpp"
 #include "halfspace/stress/draw_list.hpp"
 #include "halfspace/stress/family.hpp"
 
@@ -124,28 +125,6 @@ float depth_of(std::uint32_t code, DepthFormat format) {
   return static_cast<float>(static_cast<double>(code) / max_unorm_code(format));
 }
 
-bool passes(DepthFunc func, std::uint32_t code, std::uint32_t stored) {
-  switch (func) {
-    case DepthFunc::kNever:
-      return false;
-    case DepthFunc::kLess:
-      return code < stored;
-    case DepthFunc::kEqual:
-      return code == stored;
-    case DepthFunc::kLequal:
-      return code <= stored;
-    case DepthFunc::kGreater:
-      return code > stored;
-    case DepthFunc::kNotEqual:
-      return code != stored;
-    case DepthFunc::kGequal:
-      return code >= stored;
-    case DepthFunc::kAlways:
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Case depth_stack(const Precision& precision, std::uint64_t seed) {
@@ -189,7 +168,7 @@ Case depth_stack(const Precision& precision, std::uint64_t seed) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
           const std::size_t pixel = y * kSize + x;
           if (reference::covers(triangle, list.centre(x, y), reference::TieRule::kTopLeft) &&
-              passes(func, layer, stored[pixel])) {
+              reference::depth_test(static_cast<std::uint32_t>(func), layer, stored[pixel])) {
             ++survivors[pixel];
             stored[pixel] = writes ? layer : stored[pixel];
           }

@@ -1,0 +1,94 @@
+// halfspace stress, as a user runs it.
+#include <catch2/catch.hpp>
+
+#include "program.hpp"
+
+using namespace halfspace::testing;
+
+namespace {
+
+constexpr const char* kInside =
+    "sliver,sub_pixel,on_samples,collinear,near_miss,guard_band,fan,mesh,grid_depth";
+
+}  // namespace
+
+TEST_CASE("stress: a campaign in sittings, and its files") {
+  const Place place;
+  const std::string out = (place.path / "campaign").string();
+  const Outcome first = place.run("stress --cases 2 --out " + out);
+  CAPTURE(first.out, first.err);
+  REQUIRE(first.status == 0);
+  CHECK(first.out.find("**0 errors**") != std::string::npos);
+  CHECK(entries(out) == std::set<std::string>{"cases", "report.md", "state.json"});
+  REQUIRE(place.run("stress --cases 3 --out " + out).status == 0);
+  const Json state = Json::parse(slurp(place.path / "campaign" / "state.json"));
+  CHECK(state.at("sittings") == 2);
+  for (const Json& family : state.at("families")) {
+    CHECK(family.at("next") == 3);
+  }
+  const Outcome other = place.run("stress --seed 2 --cases 3 --out " + out);
+  CHECK(other.status == 1);
+  CHECK(other.err.find("the campaign's seed is '2'; it must be '1'") != std::string::npos);
+}
+
+TEST_CASE("stress: the units, other machines and SystemC break no law") {
+  const Place place;
+  for (const char* options :
+       {"--core readable --cases 3",
+        "--core readable --cases 3 --set tile_walker.tile_size=16 --set hi_z.enabled=true",
+        "--fidelity recurrence --cases 3 --depth float32 --set depth.interpolator=barycentric",
+        "--fidelity systemc --cases 1 --set raster.sub_pixel_bits=4 --depth unorm16"}) {
+    const Outcome outcome = place.run(std::string("stress ") + options);
+    CAPTURE(options, outcome.out, outcome.err);
+    CHECK(outcome.status == 0);
+  }
+}
+
+TEST_CASE("stress: a wrong rasterizer leaves frames and pictures to look at") {
+  const Place place;
+  const std::string out = (place.path / "campaign").string();
+  const Outcome wrong = place.run("stress --engine wrong:short_box --family mesh --cases 2 --out " + out);
+  CHECK(wrong.status == 1);
+  REQUIRE(entries(place.path / "campaign" / "cases") ==
+          std::set<std::string>{"mesh-1-0.png", "mesh-1-0.ptf.xz", "mesh-1-1.png", "mesh-1-1.ptf.xz"});
+  CHECK(place.run("run " + out + "/cases/mesh-1-0.ptf.xz").status == 0);
+}
+
+TEST_CASE("stress: somebody else's rasterizer, through a library and through files") {
+  const Place place;
+  const std::string library = std::string("library:") + HALFSPACE_STRESS_EXAMPLE;
+  const Outcome right =
+      place.run("stress --depth-bound 1 --cases 5 --family " + std::string(kInside) + " --engine " + library);
+  CAPTURE(right.out, right.err);
+  CHECK(right.status == 0);
+  const Outcome refused = place.run("stress --depth float32 --cases 1 --family mesh --engine " + library);
+  CHECK(refused.status == 1);
+  CHECK(refused.out.find("only unorm24") != std::string::npos);
+
+  const std::string cases = (place.path / "written").string();
+  REQUIRE(place.run("stress --cases 1 --family mesh,permuted --write " + cases).status == 0);
+  CHECK(entries(cases) == std::set<std::string>{"mesh-1-0.ptf", "permuted-1-0.ptf", "permuted-1-0-twin.ptf"});
+  for (const char* name : {"mesh-1-0", "permuted-1-0", "permuted-1-0-twin"}) {
+    REQUIRE(place
+                .run("run " + cases + "/" + name + ".ptf --no-pictures --out " +
+                     (place.path / "mine" / name).string())
+                .status == 0);
+  }
+  const std::string files = " --engine files:" + (place.path / "mine").string();
+  CHECK(place.run("stress --cases 1 --family mesh,permuted" + files).status == 0);
+  const Outcome missing = place.run("stress --cases 2 --family mesh" + files);
+  CHECK(missing.status == 1);
+  CHECK(missing.out.find("mesh-1-1") != std::string::npos);
+}
+
+TEST_CASE("stress: bad options") {
+  const Place place;
+  const Outcome engine = place.run("stress --engine mine");
+  CHECK(engine.status == 1);
+  CHECK(engine.err.find(
+            "--engine is 'mine'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME") !=
+        std::string::npos);
+  CHECK(place.run("stress --family slivers").status != 0);
+  CHECK(place.run("stress --engine library:/nowhere.so --cases 1").err.find("/nowhere.so cannot be loaded") !=
+        std::string::npos);
+}
