@@ -48,7 +48,8 @@ module z_decoder
 
   always_comb begin
     for (int unsigned i = 0; i < Samples; i++) begin
-      plain[i] = half_i ? code_t'(data_i[i*(CodeBits/2)+:CodeBits/2]) : data_i[i*CodeBits+:CodeBits];
+      plain[i] = half_i ? code_t'(data_i[i*(CodeBits/2)+:CodeBits/2])
+                        : data_i[i*CodeBits+:CodeBits];
     end
   end
 
