@@ -156,7 +156,7 @@ double nearest_edge(const ref::GridTriangle& t, int x, int y) {
 
 TEST_CASE("exact references cover what rational numbers say, by every rule", "[property][references]") {
   CAPTURE(seed());
-  const std::uint64_t rounds = samples(400);
+  const std::uint64_t rounds = samples(1'200'000) / 3000;
   for (const int sub_pixel_bits : {8, 4}) {
     constexpr int kSize = 12;
     TriangleSource source(seed(), kSize, sub_pixel_bits);
@@ -171,7 +171,7 @@ TEST_CASE("exact references cover adversarial triangles as rational numbers say"
   constexpr int kSize = 6;
   const auto half_pixel = [&] { return 128 * random.between(-1, 2 * kSize + 1); };
   const auto any = [&] { return random.between(-256, 256 * (kSize + 1)); };
-  const std::uint64_t rounds = samples(150);
+  const std::uint64_t rounds = samples(450'000) / 3000;
   for (std::uint64_t round = 0; round < rounds; ++round) {
     // Corners on samples and on pixel corners: edges run through samples, and some are level or upright.
     check_all({{{half_pixel(), half_pixel()}, {half_pixel(), half_pixel()}, {half_pixel(), half_pixel()}}},
