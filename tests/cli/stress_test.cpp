@@ -81,8 +81,26 @@ TEST_CASE("stress: somebody else's rasterizer, through a library and through fil
   CHECK(missing.out.find("mesh-1-1") != std::string::npos);
 }
 
+TEST_CASE("stress: the triangles of the grid find a rasterizer that is wrong") {
+  const Place place;
+  CHECK(place.run("stress --exhaustive --every 256").status == 0);
+  CHECK(place.run("stress --exhaustive --every 256 --engine wrong:no_top").status == 1);
+  const Outcome units = place.run("stress --exhaustive-units --every 512 --threads 2");
+  CHECK(units.status == 0);
+  CHECK(units.out.find(" 0 unsound; ") != std::string::npos);
+}
+
 TEST_CASE("stress: bad options") {
   const Place place;
+  for (const char* options :
+       {"--samples 0", "--cases 0", "--exhaustive --out x", "--sharpness --engine reference:exact",
+        "--exhaustive-units --fidelity rtl", "--engine reference:exact --fidelity systemc",
+        "--write x --sharpness", "--depth-bound 0"}) {
+    CAPTURE(options);
+    const Outcome outcome = place.run(std::string("stress ") + options);
+    CHECK(outcome.status != 0);
+    CHECK(outcome.out.empty());
+  }
   const Outcome engine = place.run("stress --engine mine");
   CHECK(engine.status == 1);
   CHECK(engine.err.find(

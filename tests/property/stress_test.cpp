@@ -143,6 +143,20 @@ TEST_CASE("stress: the judge finds a picture that breaks a law", "[property]") {
   CHECK(errors("sub_pixel", [](Picture& picture) { picture.fragments.pop_back(); }).failed == 20);
 }
 
+TEST_CASE("stress: an unsound verdict about a tile is found") {
+  // The one tile of the target both rejected and accepted: the half of it that is wrong, or both.
+  Textbook both([](Picture& picture) {
+    picture.tile_size = 16;
+    for (std::uint32_t triangle = 0; triangle < 100; ++triangle) {
+      picture.decisions.push_back({.triangle = triangle, .verdict = TileVerdict::kReject});
+      picture.decisions.push_back({.triangle = triangle, .verdict = TileVerdict::kAccept});
+    }
+  });
+  const Tally tally = run(only("on_samples", 5), both).sum();
+  CHECK(tally.decisions == 1000);
+  CHECK(tally.unsound >= 500);
+}
+
 TEST_CASE("stress: a depth one code off, or outside of its vertices, is found") {
   Textbook off([](Picture& picture) {
     for (std::uint32_t& code : picture.codes) code += code < 0xFFFFFF ? 1 : 0;

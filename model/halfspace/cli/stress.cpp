@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct StressCommand {
   std::uint32_t every = 1;
   int threads = 1;
 };
+
+const CLI::Range kFromOne(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max());
 
 DepthFormat format_of(const std::string& text) {
   return text == "unorm16"   ? DepthFormat::kUnorm16
@@ -197,24 +200,28 @@ void add_stress_command(CLI::App& app, int& status) {
   for (const FidelityInfo& fidelity : kFidelityInfo) {
     fidelities.emplace_back(fidelity.name);
   }
-  command->add_option("--fidelity", options->fidelity, "selects the engine")
-      ->check(CLI::IsMember(fidelities))
-      ->capture_default_str();
+  CLI::Option* fidelity = command->add_option("--fidelity", options->fidelity, "selects the engine")
+                              ->check(CLI::IsMember(fidelities))
+                              ->capture_default_str();
   options->core.add_to(*command);
-  command
-      ->add_option(
-          "--engine", options->engine,
-          "another rasterizer: library:FILE, which has the function of halfspace_rasterizer.h; files:DIR, "
-          "results for the frames of --write; reference:NAME, a textbook rasterizer; wrong:NAME, one that "
-          "is wrong on purpose")
-      ->type_name("KIND:PATH");
-  command->add_option("--write", options->write, "instead: write the first --cases of each family as frames")
-      ->type_name("DIR");
+  CLI::Option* engine = command
+                            ->add_option("--engine", options->engine,
+                                         "another rasterizer: library:FILE, which has the function of "
+                                         "halfspace_rasterizer.h; files:DIR, "
+                                         "results for the frames of --write; reference:NAME, a textbook "
+                                         "rasterizer; wrong:NAME, one that "
+                                         "is wrong on purpose")
+                            ->type_name("KIND:PATH")
+                            ->excludes(fidelity);
+  CLI::Option* write =
+      command
+          ->add_option("--write", options->write, "instead: write the first --cases of each family as frames")
+          ->type_name("DIR");
   command
       ->add_option(
           "--depth-bound", options->depth_bound,
           "how far a depth may be off, in units of the last place (default: the bound of the interpolator)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1e6));
   options->rtl.add_to(*command);
   std::vector<std::string> names;
   for (const stress::Family& family : stress::families()) {
@@ -227,28 +234,35 @@ void add_stress_command(CLI::App& app, int& status) {
       ->check(CLI::IsMember({"unorm16", "unorm24", "float32"}))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the cases")->capture_default_str();
-  command->add_option("--samples", options->samples, "samples to judge, in all sittings");
-  command->add_option("--cases", options->cases, "cases of each family, in all sittings");
+  command->add_option("--samples", options->samples, "samples to judge, in all sittings")->check(kFromOne);
+  command->add_option("--cases", options->cases, "cases of each family, in all sittings")->check(kFromOne);
   command
       ->add_option("--seconds", options->seconds,
                    "time of this sitting (default: 10, or what --samples and --cases take)")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option(
-          "--out", options->out,
-          "folder for the report, its cases, and the state: the same command goes on where it was cut off")
-      ->type_name("DIR");
-  command->add_flag(
+  CLI::Option* out = command
+                         ->add_option("--out", options->out,
+                                      "folder for the report, its cases, and the state: the same command "
+                                      "goes on where it was cut off")
+                         ->type_name("DIR");
+  CLI::Option* sharpness = command->add_flag(
       "--sharpness", options->sharpness,
       "instead: the campaign on rasterizers that are wrong on purpose; exit status 1 where one is not found");
   CLI::Option* exhaustive = command->add_flag("--exhaustive", options->exhaustive,
                                               "instead: all triangles with vertices on the 1/16 grid of 2x2 "
-                                              "pixels, on the engine (4 sub-pixel bits)");
-  command
-      ->add_flag(
-          "--exhaustive-units", options->units,
-          "instead: the same through the units alone, in both windings, at two places, with all tile sizes")
-      ->excludes(exhaustive);
+                                              "pixels, on the engine");
+  CLI::Option* units = command->add_flag(
+      "--exhaustive-units", options->units,
+      "instead: the same through the units alone, in both windings, at two places, with all tile sizes");
+  // What a job does not look at is refused.
+  for (CLI::Option* instead : {write, sharpness, exhaustive, units}) {
+    instead->excludes(out);
+    if (instead != exhaustive) {
+      instead->excludes(engine)->excludes(fidelity)->excludes(exhaustive);
+    }
+  }
+  units->excludes(write)->excludes(sharpness);
+  write->excludes(sharpness);
   command->add_option("--every", options->every, "of --exhaustive: of the least vertices only one of so many")
       ->check(CLI::Range(1U, stress::kGridPoints))
       ->capture_default_str();

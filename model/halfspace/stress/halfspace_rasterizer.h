@@ -1,6 +1,6 @@
 /**
  * A rasterizer that `halfspace stress --engine library:FILE` loads and stresses. A shared library exports
- * halfspace_rasterize(); it needs nothing of halfspace but this header. docs/guides/stress.md shows one.
+ * halfspace_rasterize(); it needs nothing of halfspace but this header. docs/guides/stress.md names an example.
  *
  * A scene is a frame of the stress campaign: one square target with one depth surface, which starts at
  * depth 1. What its numbers mean is that of the file format, docs/guides/frames.md.
