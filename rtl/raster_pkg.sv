@@ -68,6 +68,8 @@ package raster_pkg;
   parameter int unsigned SlotBits = 8;
   // yes or no
   parameter int unsigned FlagBits = 1;
+  // bit 0: bottom edges own the samples on them, not top ones; bit 1: right edges, not left ones
+  parameter int unsigned FillRuleBits = 2;
   // depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits
   parameter int unsigned VertexDepthBits = 48;
   // depth with the binary point behind the sign, on a scale of the triangle
@@ -132,7 +134,7 @@ package raster_pkg;
     logic [FlagBits-1:0] front_positive_area;
     logic [FlagBits-1:0] cull_front;
     logic [FlagBits-1:0] cull_back;
-    logic [FlagBits-1:0] bottom_left_rule;
+    logic [FillRuleBits-1:0] fill_rule;
     logic [FlagBits-1:0] empty;
     logic [PixelBits-1:0] x_first;
     logic [PixelBits-1:0] x_last;

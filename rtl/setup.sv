@@ -181,7 +181,7 @@ module setup
     .area2_i            (verdict.area2),
     .x_first_i          (verdict.bounds.x_first),
     .y_first_i          (verdict.bounds.y_first),
-    .bottom_left_rule_i (verdict.state.bottom_left_rule),
+    .fill_rule_i        (verdict.state.fill_rule),
     .valid_o            (edges_valid),
     .e_o                (edges_d.e),
     .a_o                (edges_d.a),

@@ -8,23 +8,23 @@ module setup_edges
   import raster_pkg::*;
   import setup_pkg::*;
 (
-  input  logic                  clk_i,
-  input  logic                  rst_ni,
+  input  logic                    clk_i,
+  input  logic                    rst_ni,
 
-  input  logic                  valid_i,
-  input  coord_t [2:0]          x_i,
-  input  coord_t [2:0]          y_i,
-  input  area_t                 area2_i,
-  input  logic [PixelBits-1:0]  x_first_i, // of the bounds
-  input  logic [PixelBits-1:0]  y_first_i,
-  input  logic                  bottom_left_rule_i,
+  input  logic                    valid_i,
+  input  coord_t [2:0]            x_i,
+  input  coord_t [2:0]            y_i,
+  input  area_t                   area2_i,
+  input  logic [PixelBits-1:0]    x_first_i, // of the bounds
+  input  logic [PixelBits-1:0]    y_first_i,
+  input  logic [FillRuleBits-1:0] fill_rule_i,
 
   // Four cycles later.
-  output logic                  valid_o,
-  output edge_t [2:0]           e_o,
-  output step_t [2:0]           a_o,
-  output step_t [2:0]           b_o,
-  output logic [2:0]            bias_o
+  output logic                    valid_o,
+  output edge_t [2:0]             e_o,
+  output step_t [2:0]             a_o,
+  output step_t [2:0]             b_o,
+  output logic [2:0]              bias_o
 );
 
   typedef logic [PixelBits-1:0] pixel_t;
@@ -57,7 +57,7 @@ module setup_edges
     step_t       x;
     step_t       y;
     area_t       area2;
-    logic        bottom_left_rule;
+    logic [FillRuleBits-1:0] fill_rule;
   } steps_t;
 
   steps_t steps_q;
@@ -68,19 +68,18 @@ module setup_edges
         steps_q.a[i] <= step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
         steps_q.b[i] <= step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
       end
-      steps_q.x                <= start(x_first_i) - step_t'(x_i[0]);
-      steps_q.y                <= start(y_first_i) - step_t'(y_i[0]);
-      steps_q.area2            <= area2_i;
-      steps_q.bottom_left_rule <= bottom_left_rule_i;
+      steps_q.x         <= start(x_first_i) - step_t'(x_i[0]);
+      steps_q.y         <= start(y_first_i) - step_t'(y_i[0]);
+      steps_q.area2     <= area2_i;
+      steps_q.fill_rule <= fill_rule_i;
     end
   end
 
-  // An edge that does not own the samples on it is lowered by 1.
-  function automatic logic lowered(step_t a, step_t b, logic bottom_left_rule);
-    logic left = !a[StepBits-1] && a != '0;
-    logic horizontal = a == '0;
-    logic owned_side = bottom_left_rule ? b[StepBits-1] : !b[StepBits-1] && b != '0;
-    return !(left || (horizontal && owned_side));
+  // An edge that does not own the samples on it is lowered by 1. Left edges own theirs, or right ones
+  // (bit 1 of the rule); of the horizontal ones the top ones do, or the bottom ones (bit 0). A and B
+  // are not both 0.
+  function automatic logic lowered(step_t a, step_t b, logic [FillRuleBits-1:0] rule);
+    return a == '0 ? b[StepBits-1] != rule[0] : a[StepBits-1] != rule[1];
   endfunction
 
   // Second register.
@@ -105,7 +104,7 @@ module setup_edges
         products_q.down[i]   <= edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
       end
       for (int unsigned i = 0; i < 3; i++) begin
-        products_q.bias[i] <= lowered(steps_q.a[i], steps_q.b[i], steps_q.bottom_left_rule);
+        products_q.bias[i] <= lowered(steps_q.a[i], steps_q.b[i], steps_q.fill_rule);
       end
     end
   end

@@ -24,7 +24,7 @@ inline SetupState open_state(int size, int sub_pixel_bits = 8) {
           .front_positive_area = true,
           .cull_front = false,
           .cull_back = false,
-          .bottom_left_rule = false,
+          .fill_rule = FillRule::kTopLeft,
           .bounds = {.x_first = 0, .y_first = 0, .x_last = size - 1, .y_last = size - 1},
           .depth_format = DepthFormat::kUnorm24,
           .interpolator = DepthInterpolator::kPlane};

@@ -6,11 +6,14 @@ Require Import ZArith Lia Bool.
 From Halfspace Require Import edge_function.
 Open Scope Z_scope.
 
-(* owns_its_samples() of model/halfspace/units/setup.cpp without and with bottom_left_rule, and `lowered` of
-   rtl/setup_edges.sv, which is its negation. *)
+(* owns_its_samples() of model/halfspace/numerics/fill_rule.hpp, by the two bits of a rule; `lowered` of
+   rtl/setup_edges.sv is its negation. *)
+Definition owns_by_bits (bottom right : bool) (a b : Z) : bool :=
+  if negb (a =? 0) then Bool.eqb (a <? 0) right else Bool.eqb (b <? 0) bottom.
+
+(* The same rules by the sides that they name. *)
 Definition top_left (a b : Z) : bool := (0 <? a) || ((a =? 0) && (0 <? b)).
 Definition bottom_left (a b : Z) : bool := (0 <? a) || ((a =? 0) && (b <? 0)).
-(* The other two that name sides; the project does not use them. *)
 Definition top_right (a b : Z) : bool := (a <? 0) || ((a =? 0) && (0 <? b)).
 Definition bottom_right (a b : Z) : bool := (a <? 0) || ((a =? 0) && (b <? 0)).
 
@@ -110,6 +113,15 @@ Proof. is_a_rule top_right. Qed.
 Theorem bottom_right_is_a_rule : fill_rule bottom_right.
 Proof. is_a_rule bottom_right. Qed.
 
+(* The two bits name the sides, for every edge, whose A and B are not both 0. *)
+Theorem bits_name_the_sides : forall a b, ~ (a = 0 /\ b = 0) ->
+  owns_by_bits false false a b = top_left a b /\ owns_by_bits true false a b = bottom_left a b /\
+  owns_by_bits false true a b = top_right a b /\ owns_by_bits true true a b = bottom_right a b.
+Proof.
+  intros a b Hab; unfold owns_by_bits, top_left, bottom_left, top_right, bottom_right.
+  repeat split; compare_all; exfalso; apply Hab; lia.
+Qed.
+
 (* Which coincide: the sign of the normal is the top-left rule; right rules are left ones turned round. *)
 Theorem normal_sign_is_top_left : forall a b, normal_sign a b = top_left a b.
 Proof. intros; unfold normal_sign, top_left; compare_all. Qed.
@@ -159,6 +171,7 @@ Print Assumptions top_left_is_a_rule.
 Print Assumptions bottom_left_is_a_rule.
 Print Assumptions top_right_is_a_rule.
 Print Assumptions bottom_right_is_a_rule.
+Print Assumptions bits_name_the_sides.
 Print Assumptions normal_sign_is_top_left.
 Print Assumptions bottom_right_is_top_left_turned.
 Print Assumptions top_right_is_bottom_left_turned.

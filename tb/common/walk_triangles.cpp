@@ -27,7 +27,7 @@ using Points = std::array<Point, 3>;
 
 PixelRect screen() { return {0, 0, kScreen - 1, kScreen - 1}; }
 
-std::optional<SetupTriangle> set_up(const Points& v, const PixelRect& bounds, bool bottom_left_rule,
+std::optional<SetupTriangle> set_up(const Points& v, const PixelRect& bounds, FillRule rule,
                                     const WalkSizes& sizes) {
   const std::int64_t limit = std::int64_t{1} << (sizes.widths().CoordBits - 1);
   ScreenTriangle triangle;
@@ -35,8 +35,7 @@ std::optional<SetupTriangle> set_up(const Points& v, const PixelRect& bounds, bo
     triangle.v[i] = {.x = static_cast<std::int32_t>(std::clamp(v[i].x, -limit, limit - 1)),
                      .y = static_cast<std::int32_t>(std::clamp(v[i].y, -limit, limit - 1))};
   }
-  const SetupState state{
-      .sub_pixel_bits = sizes.sub_pixel_bits, .bottom_left_rule = bottom_left_rule, .bounds = bounds};
+  const SetupState state{.sub_pixel_bits = sizes.sub_pixel_bits, .fill_rule = rule, .bounds = bounds};
   SetupTriangle out;
   return setup(triangle, state, out) == SetupVerdict::kDrawn ? std::optional(out) : std::nullopt;
 }
@@ -47,11 +46,12 @@ class Triangles {
   explicit Triangles(const WalkSizes& sizes) : sizes_(sizes), one_(std::int64_t{1} << sizes.sub_pixel_bits) {}
 
   /// Corners in pixels, from the top left corner of pixel (0, 0), and sub-pixels on top.
-  void add(Points v, Point offset = {}, const PixelRect& bounds = screen(), bool bottom_left_rule = false) {
+  void add(Points v, Point offset = {}, const PixelRect& bounds = screen(),
+           FillRule rule = FillRule::kTopLeft) {
     for (Point& p : v) {
       p = {p.x * one_ + offset.x, p.y * one_ + offset.y};
     }
-    if (const auto triangle = set_up(v, bounds, bottom_left_rule, sizes_)) {
+    if (const auto triangle = set_up(v, bounds, rule, sizes_)) {
       triangles_.push_back(*triangle);
     }
   }
@@ -91,9 +91,9 @@ void add_turns(Triangles& out, std::int64_t x, std::int64_t y, std::int64_t size
         v[i] = {x + turn[0] * shape[i].x + turn[1] * shape[i].y,
                 y + turn[2] * shape[i].x + turn[3] * shape[i].y};
       }
-      for (const bool bottom_left_rule : {false, true}) {
-        out.add(v, {}, screen(), bottom_left_rule);
-        out.add(v, {out.one() / 2, out.one() / 2}, screen(), bottom_left_rule);
+      for (const FillRule rule : kFillRules) {
+        out.add(v, {}, screen(), rule);
+        out.add(v, {out.one() / 2, out.one() / 2}, screen(), rule);
       }
     }
   }
@@ -255,7 +255,7 @@ std::optional<SetupTriangle> full_screen(const WalkSizes& sizes, Random& random)
     p = {random.range(-kFullScreen, 2 * kFullScreen) * one,
          random.range(-kFullScreen, 2 * kFullScreen) * one};
   }
-  return set_up(v, {0, 0, kFullScreen - 1, kFullScreen - 1}, false, sizes);
+  return set_up(v, {0, 0, kFullScreen - 1, kFullScreen - 1}, FillRule::kTopLeft, sizes);
 }
 
 }  // namespace
@@ -333,11 +333,11 @@ SetupTriangle random_triangle(const WalkSizes& sizes, Random& random) {
       continue;
     }
     const Points v = random_points(sizes, random);
-    const bool bottom_left_rule = random.below(2) == 0;
-    triangle = set_up(v, screen(), bottom_left_rule, sizes);
+    const FillRule rule = kFillRules[random.below(kFillRules.size())];
+    triangle = set_up(v, screen(), rule, sizes);
     const bool cut = random.below(8) == 0;
     if (triangle && (cut || tiles_of(triangle->bounds, sizes.tile_size) > most_tiles(sizes))) {
-      triangle = set_up(v, random_window(v, triangle->bounds, sizes, random), bottom_left_rule, sizes);
+      triangle = set_up(v, random_window(v, triangle->bounds, sizes, random), rule, sizes);
     }
   }
   turn_edges(*triangle, random.below(3));

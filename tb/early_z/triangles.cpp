@@ -138,7 +138,7 @@ std::vector<QuadBurst> tile_bursts(const Widths& widths, const SetupTriangle& tr
 SetupTriangle random_triangle(const Widths& widths, DepthFormat format, DepthInterpolator interpolator,
                               int width, int height, Random& random) {
   const SetupState state{.sub_pixel_bits = widths.SubPixelBits,
-                         .bottom_left_rule = random.below(2) == 0,
+                         .fill_rule = kFillRules[random.below(kFillRules.size())],
                          .bounds = {0, 0, width - 1, height - 1},
                          .depth_format = format,
                          .limits = random_limits(format, random),

@@ -202,7 +202,7 @@ class Maker {
     DrawStatePacket packet{.front_positive_area = static_cast<std::uint8_t>(random_.below(2)),
                            .cull_front = static_cast<std::uint8_t>(random_.below(2)),
                            .cull_back = static_cast<std::uint8_t>(random_.below(2)),
-                           .bottom_left_rule = static_cast<std::uint8_t>(random_.below(2)),
+                           .fill_rule = static_cast<std::uint8_t>(random_.below(kFillRules.size())),
                            .empty = static_cast<std::uint8_t>(random_.below(2)),
                            .x_first = pixel(),
                            .x_last = pixel(),

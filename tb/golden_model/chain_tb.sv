@@ -145,7 +145,7 @@ module chain_tb;
     end
     next.state.front_positive_area = FlagBits'($urandom);
     next.state.cull_back           = FlagBits'($urandom_range(3) == 0);
-    next.state.bottom_left_rule    = FlagBits'($urandom);
+    next.state.fill_rule           = FillRuleBits'($urandom);
     next.state.x_last              = PixelBits'(Size - 1 - $urandom_range(40));
     next.state.y_last              = PixelBits'(Size - 1 - $urandom_range(40));
     next.state.format              = FormatBits'(1 << $urandom_range(2)) & {FormatBits{deep}};

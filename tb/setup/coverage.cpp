@@ -19,21 +19,21 @@ constexpr std::array<const char*, 7> kVerdicts = {"drawn",     "zero_area", "cul
                                                   "no_sample", "outside",   "empty"};
 constexpr std::array<const char*, 2> kSpans = {"block", "blocks"};
 constexpr std::array<const char*, 3> kSigns = {"negative", "zero", "positive"};
-constexpr std::array<const char*, 2> kRules = {"top_left", "bottom_left"};
+constexpr std::array<const char*, kFillRules.size()> kRules = {"top_left", "bottom_left", "top_right",
+                                                               "bottom_right"};
 constexpr std::array<const char*, 5> kDepths = {"equal", "first_least", "first_most", "first_middle", "ties"};
 
 std::string verdict_bin(std::size_t verdict, std::size_t format) {
   return fmt::format("verdict {} format {}", kVerdicts[verdict], kFormatNames[format]);
 }
-std::string order_bin(bool turned, std::size_t first, bool bottom_left_rule) {
-  return fmt::format("turned {:d} first {} rule {}", turned, first, kRules[bottom_left_rule ? 1 : 0]);
+std::string order_bin(bool turned, std::size_t first, std::size_t rule) {
+  return fmt::format("turned {:d} first {} rule {}", turned, first, kRules[rule]);
 }
 std::string size_bin(std::size_t span, std::size_t shift, std::size_t format) {
   return fmt::format("span {} shift {} format {}", kSpans[span], kSigns[shift], kFormatNames[format]);
 }
-std::string edge_bin(std::size_t side, bool flat_top, bool bottom_left_rule) {
-  return fmt::format("edge0 a {} top {} rule {}", kSigns[side], flat_top ? "flat" : "pointed",
-                     kRules[bottom_left_rule ? 1 : 0]);
+std::string edge_bin(std::size_t side, bool flat_top, std::size_t rule) {
+  return fmt::format("edge0 a {} top {} rule {}", kSigns[side], flat_top ? "flat" : "pointed", kRules[rule]);
 }
 std::string depth_bin(std::size_t depths, std::size_t format) {
   return fmt::format("depths {} format {}", kDepths[depths], kFormatNames[format]);
@@ -100,7 +100,7 @@ SetupCoverage::SetupCoverage(const SetupModel& model) : interval_(model.interval
       counts_[depth_bin(depths, format)];
     }
   }
-  for (const bool rule : {false, true}) {
+  for (std::size_t rule = 0; rule < kRules.size(); ++rule) {
     for (std::size_t first = 0; first < 3; ++first) {
       counts_[order_bin(false, first, rule)];
       counts_[order_bin(true, first, rule)];
@@ -133,7 +133,7 @@ void SetupCoverage::triangle(const SetupJob& job, const SetupResult& result, con
   for (std::size_t i = 1; i < 3; ++i) {
     first = std::pair(y[i], x[i]) < std::pair(y[first], x[first]) ? i : first;
   }
-  const bool rule = job.state.bottom_left_rule != 0;
+  const std::size_t rule = job.state.fill_rule;
   hit(order_bin(area2 < 0, first, rule));
   const std::array<Edge, 3>& edge = result.triangle.edge;
   hit(edge_bin(sign_of(edge[0].a), edge[2].a == 0, rule));

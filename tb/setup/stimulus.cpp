@@ -76,13 +76,13 @@ void add_orders(std::vector<SetupJob>& jobs, const Band& band) {
   for (const auto& shape : shapes) {
     std::array<std::size_t, 3> order = {0, 1, 2};
     do {
-      for (unsigned flags = 0; flags < 16; ++flags) {
+      for (unsigned flags = 0; flags < 32; ++flags) {
         SetupJob job;
         job.state = open_state(kFormats[flags % 4]);
         job.state.front_positive_area = flags & 1;
         job.state.cull_front = flags >> 1 & 1;
         job.state.cull_back = flags >> 2 & 1;
-        job.state.bottom_left_rule = flags >> 3 & 1;
+        job.state.fill_rule = flags >> 3 & 3;
         std::array<Point, 3> points;
         for (std::size_t i = 0; i < 3; ++i) {
           points[i] = band.centre(shape[order[i]].x, shape[order[i]].y);
@@ -309,7 +309,7 @@ class Generator {
     state_.front_positive_area = random_.below(2) & 1;
     state_.cull_front = one_in(6) ? 1 : 0;
     state_.cull_back = one_in(4) ? 1 : 0;
-    state_.bottom_left_rule = random_.below(2) & 1;
+    state_.fill_rule = random_.below(kFillRules.size()) & 3;
     state_.empty = one_in(20) ? 1 : 0;
     state_.test = random_.below(2) & 1;
     state_.write = random_.below(2) & 1;

@@ -1,5 +1,6 @@
 // The reference rasterizers on frames of real programs: the exact ones cover as the units do.
 #include <catch2/catch.hpp>
+#include <span>
 
 #include "captured_frame.hpp"
 #include "halfspace/core/functional.hpp"
@@ -21,9 +22,9 @@ int pixels_apart(const Surface& units, const reference::Surface& other) {
 }
 
 /// Pixels of all surfaces that `method` covers another number of times than the units.
-int pixels_apart(const Frame& frame, const FrameResult& units, std::string_view method) {
-  reference::Options options;
-  options.method = method;
+int pixels_apart(const Frame& frame, const FrameResult& units, std::string_view method,
+                 std::optional<reference::TieRule> rule = std::nullopt) {
+  const reference::Options options{.method = method, .rule = rule};
   int apart = 0;
   for (const reference::Surface& surface : reference::rasterize(frame, options)) {
     apart += pixels_apart(units.surfaces.at(surface.index), surface);
@@ -31,10 +32,12 @@ int pixels_apart(const Frame& frame, const FrameResult& units, std::string_view 
   return apart;
 }
 
+constexpr std::array kExact = {"exact", "barycentric", "scanline", "incremental"};
+
 void check_references(const std::string& name) {
   const Frame frame = captured_frame(name);
   const FrameResult units = run_functional(frame, {});
-  for (const char* method : {"exact", "barycentric", "scanline", "incremental"}) {
+  for (const char* method : kExact) {
     CAPTURE(name, method);
     CHECK(pixels_apart(frame, units, method) == 0);
   }
@@ -46,7 +49,34 @@ void check_references(const std::string& name) {
   }
 }
 
+/// By each fill rule in all draws: both cores, and all of `methods`.
+void check_rules(const std::string& name, std::span<const char* const> methods) {
+  const Frame frame = captured_frame(name);
+  for (const auto& [rule, rule_name] : reference::kTieRules) {
+    Config config;
+    set_config(config, "setup.fill_rule", rule_name);
+    for (const Core core : {Core::kFast, Core::kReadable}) {
+      const FrameResult units = run_functional(frame, config, {.core = core});
+      for (const char* method : methods) {
+        CAPTURE(name, rule_name, core, method);
+        CHECK(pixels_apart(frame, units, method, rule) == 0);
+      }
+    }
+  }
+}
+
 }  // namespace
+
+TEST_CASE("references: fill rules", "[golden]") {
+  check_rules("vkcube", kExact);
+  check_rules("cc0_truck", std::span(kExact).first(1));
+}
+TEST_CASE("references: every fill rule on every frame", "[golden][slow]") {
+  for (const char* name : {"vkcube", "cc0_truck", "glmark2_ideas", "glmark2_shadow", "stk_snowmountain",
+                           "openarena_gl2", "warzone2100_vulkan"}) {
+    check_rules(name, kExact);
+  }
+}
 
 TEST_CASE("references: vkcube", "[golden]") { check_references("vkcube"); }
 TEST_CASE("references: cc0_truck", "[golden]") { check_references("cc0_truck"); }

@@ -25,7 +25,8 @@ using halfspace::testing::seed;
 
 constexpr int kBits = 8;
 constexpr std::int64_t kOne = 1 << kBits;
-constexpr std::array kRules = {TieRule::kTopLeft, TieRule::kBottomLeft};
+constexpr std::array kRules = {TieRule::kTopLeft, TieRule::kBottomLeft, TieRule::kTopRight,
+                               TieRule::kBottomRight, TieRule::kNormalSign};
 
 /// The pixels of a size x size window that `t` covers, row by row.
 std::vector<int> coverage(const GridTriangle& t, int size, TieRule rule, int bits = kBits) {
@@ -54,8 +55,8 @@ std::int64_t area2(const GridTriangle& t) { return static_cast<std::int64_t>(twi
 
 TEST_CASE("A rectangle split along either diagonal is covered exactly once", "[property][coverage]") {
   // Every rectangle with corners on the half-pixel grid of a 4x4 window, so that corners, edges and diagonals
-  // pass through pixel centres. With y down, top-left owns [x0, x1) x [y0, y1), bottom-left [x0, x1) x (y0,
-  // y1].
+  // pass through pixel centres. With y down, a rule of left edges owns [x0, x1), of right ones (x0, x1]; of
+  // top ones [y0, y1), of bottom ones (y0, y1].
   constexpr int kSize = 4;
   const std::int64_t half = kOne / 2;
   for (const TieRule rule : kRules) {
@@ -73,8 +74,9 @@ TEST_CASE("A rectangle split along either diagonal is covered exactly once", "[p
             for (int py = 0; py < kSize; ++py) {
               for (int px = 0; px < kSize; ++px) {
                 const std::int64_t x = 2 * px + 1, y = 2 * py + 1;  // the centre, in half pixels
-                const bool row = rule == TieRule::kTopLeft ? y >= y0 && y < y1 : y > y0 && y <= y1;
-                expected.push_back(x >= x0 && x < x1 && row ? 1 : 0);
+                const bool row = owns_top(rule) ? y >= y0 && y < y1 : y > y0 && y <= y1;
+                const bool column = owns_left(rule) ? x >= x0 && x < x1 : x > x0 && x <= x1;
+                expected.push_back(row && column ? 1 : 0);
               }
             }
             CAPTURE(x0, x1, y0, y1);

@@ -40,7 +40,7 @@ struct ExactEdge {
 };
 
 inline std::array<ExactEdge, 3> exact_edges(const ScreenTriangle& triangle, int sub_pixel_bits,
-                                            bool bottom_left) {
+                                            reference::TieRule rule) {
   reference::GridTriangle corners;
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = {.x = triangle.v[i].x, .y = triangle.v[i].y};
@@ -56,7 +56,7 @@ inline std::array<ExactEdge, 3> exact_edges(const ScreenTriangle& triangle, int 
                 .b = b,
                 .c = -(a * from.x + b * from.y),
                 .sub_pixel_bits = sub_pixel_bits,
-                .owns = a > 0 || (a == 0 && (bottom_left ? b < 0 : b > 0))};
+                .owns = reference::owns_samples(a, b, rule)};
   }
   return edges;
 }
@@ -170,9 +170,8 @@ class BruteForce {
       a_->triangles.not_filled = a_->triangles.all;
       return;
     }
-    const PixelRect on_target =
-        intersect(drawable_rect(command.scissor, target),
-                  viewport_rect(command.viewport, command.has(Flag::kBottomLeftRule)));
+    const PixelRect on_target = intersect(drawable_rect(command.scissor, target),
+                                          viewport_rect(command.viewport, fill_rule(command, config_)));
     const FrontEnd front_end(frame_, command, format, config_.raster.sub_pixel_bits);
     for (std::uint32_t i = 0; i < a_->triangles.all; ++i) {
       std::vector<ScreenTriangle> pieces;
@@ -215,7 +214,8 @@ class BruteForce {
       return;
     }
     drawn(triangle, bounds,
-          exact_edges(triangle, config_.raster.sub_pixel_bits, command.has(Flag::kBottomLeftRule)),
+          exact_edges(triangle, config_.raster.sub_pixel_bits,
+                      reference::kTieRules[static_cast<std::size_t>(fill_rule(command, config_))].rule),
           jobs_.pieces.at(next_piece_++));
   }
 

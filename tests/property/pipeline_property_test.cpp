@@ -247,13 +247,14 @@ TEST_CASE("one unit of polygon offset moves every flat unorm depth by a code") {
 
 // The sides of the clip volume: what they cut off is outside the viewport.
 TEST_CASE("nothing is drawn outside the viewport") {
-  const auto drawn = [](const glm::vec4& viewport, bool bottom_left_rule) {
+  const auto drawn = [](const glm::vec4& viewport, FillRuleKey rule, reference::TieRule tie_rule) {
     FrameBuilder builder(64);
     Command& draw = builder.draw({{-500, -500, 0.5}, {900, -500, 0.5}, {-500, 900, 0.5}});
     draw.viewport = viewport;
-    draw.flags |= bottom_left_rule ? bits({Flag::kBottomLeftRule}) : 0;
-    const std::vector<std::uint16_t> ours = rows(run_surface(builder.frame).fragments);
-    REQUIRE(ours == reference::rasterize(builder.frame, {}).at(0).fragments);
+    Config config;
+    config.setup.fill_rule = rule;
+    const std::vector<std::uint16_t> ours = rows(run_surface(builder.frame, config).fragments);
+    REQUIRE(ours == reference::rasterize(builder.frame, {.rule = tie_rule}).at(0).fragments);
     PixelRect rect{.x_first = 64, .y_first = 64, .x_last = -1, .y_last = -1};
     int count = 0;
     for (int i = 0; i < 64 * 64; ++i) {
@@ -268,13 +269,23 @@ TEST_CASE("nothing is drawn outside the viewport") {
     CHECK(count == (rect.x_last - rect.x_first + 1) * (rect.y_last - rect.y_first + 1));
     return std::array{rect.x_first, rect.y_first, rect.x_last, rect.y_last};
   };
-  CHECK(drawn({0, 0, 32, 32}, false) == std::array{0, 0, 31, 31});
-  CHECK(drawn({16, 48, 32, -32}, false) == std::array{16, 16, 47, 47});
-  CHECK(drawn({8.25f, 8.75f, 16, 16}, false) == std::array{8, 9, 23, 24});
-  // A centre on the border is in at the left and the top, or at the bottom by the other rule.
-  CHECK(drawn({8.5f, 8.5f, 16, 16}, false) == std::array{8, 8, 23, 23});
-  CHECK(drawn({8.5f, 8.5f, 16, 16}, true) == std::array{8, 9, 23, 24});
-  CHECK(drawn({-1e9f, -1e9f, 2e9f, 2e9f}, false) == std::array{0, 0, 63, 63});
+  const auto by_top_left = [&](const glm::vec4& viewport) {
+    return drawn(viewport, FillRuleKey::kTopLeft, reference::TieRule::kTopLeft);
+  };
+  CHECK(by_top_left({0, 0, 32, 32}) == std::array{0, 0, 31, 31});
+  CHECK(by_top_left({16, 48, 32, -32}) == std::array{16, 16, 47, 47});
+  CHECK(by_top_left({8.25f, 8.75f, 16, 16}) == std::array{8, 9, 23, 24});
+  CHECK(by_top_left({-1e9f, -1e9f, 2e9f, 2e9f}) == std::array{0, 0, 63, 63});
+  // A centre on the border is in at the sides that the rule names.
+  const glm::vec4 on_centres{8.5f, 8.5f, 16, 16};
+  CHECK(by_top_left(on_centres) == std::array{8, 8, 23, 23});
+  CHECK(drawn(on_centres, FillRuleKey::kBottomLeft, reference::TieRule::kBottomLeft) ==
+        std::array{8, 9, 23, 24});
+  CHECK(drawn(on_centres, FillRuleKey::kTopRight, reference::TieRule::kTopRight) == std::array{9, 8, 24, 23});
+  CHECK(drawn(on_centres, FillRuleKey::kBottomRight, reference::TieRule::kBottomRight) ==
+        std::array{9, 9, 24, 24});
+  CHECK(drawn(on_centres, FillRuleKey::kNormalSign, reference::TieRule::kNormalSign) ==
+        std::array{8, 8, 23, 23});
 }
 
 TEST_CASE("every state of a draw gives what the reference gives") {
@@ -322,10 +333,19 @@ TEST_CASE("every state of a draw gives what the reference gives") {
     const bool opaque = n % 2 == 0;
     Config config;
     config.late_z.mode = opaque ? LateZ::kOpaque : LateZ::kNoWrite;
+    // Half of the frames have the rules of their draws, the others one of the five.
+    std::optional<reference::TieRule> rule;
+    if (random.between(0, 1) == 0) {
+      const reference::TieRuleInfo& info =
+          reference::kTieRules[static_cast<std::size_t>(random.between(0, 4))];
+      rule = info.rule;
+      set_config(config, "setup.fill_rule", std::string(info.name));
+    }
     const Surface ours = run_surface(builder.frame, config);
     const reference::Surface theirs =
-        reference::rasterize(builder.frame,
-                             {.late_z = opaque ? reference::LateZ::kOpaque : reference::LateZ::kNoWrite})
+        reference::rasterize(
+            builder.frame,
+            {.rule = rule, .late_z = opaque ? reference::LateZ::kOpaque : reference::LateZ::kNoWrite})
             .at(0);
 
     REQUIRE(rows(ours.fragments) == theirs.fragments);

@@ -30,7 +30,7 @@ class Textbook final : public Subject {
   [[nodiscard]] std::string name() const override { return "textbook"; }
 
   Picture draw(const Frame& frame) override {
-    Picture picture = reference_picture(frame, 8, reference::method_of("exact"));
+    Picture picture = reference_picture(frame, {}, reference::method_of("exact"));
     change_(picture);
     return picture;
   }
@@ -199,7 +199,7 @@ TEST_CASE("stress: every rasterizer that is wrong on purpose is found", "[proper
   plan.depth.bound = 1;
   for (const WrongRasterizer& wrong : wrong_rasterizers()) {
     CAPTURE(wrong.name);
-    CHECK(run(plan, *wrong_subject(wrong, 8)).sum().errors() > 0);
+    CHECK(run(plan, *wrong_subject(wrong, plan.precision)).sum().errors() > 0);
   }
   CHECK_THROWS_WITH(wrong_rasterizer("right"),
                     Catch::Contains("wrong rasterizer is 'right'; it must be one of"));

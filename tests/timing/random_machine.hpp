@@ -50,6 +50,8 @@ inline Config random_config(Random& random) {
   config.late_z.discard = pick(random, {0, kWholeShare / 3, kWholeShare / 2, kWholeShare});
   config.late_z.seed = static_cast<int>(random.between(1, 1000));
 
+  config.setup.fill_rule = pick(
+      random, {FillRuleKey::kDraw, FillRuleKey::kDraw, FillRuleKey::kTopRight, FillRuleKey::kBottomRight});
   config.setup.queue = mostly_small(random, 2, 64);
   config.setup.interval = pick(random, {1, 2, 4, 8, 16});
   config.setup.fifo = mostly_small(random, 2, 64);
@@ -101,6 +103,7 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.hi_z.accept = recorded.hi_z.accept;
     config.hi_z.bits = recorded.hi_z.bits;
     config.hi_z.lag = recorded.hi_z.lag;
+    config.setup.fill_rule = recorded.setup.fill_rule;
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z.mode = recorded.late_z.mode;
     config.late_z.discard = recorded.late_z.discard;

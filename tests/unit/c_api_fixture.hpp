@@ -139,7 +139,7 @@ class Reference {
                      .front_positive_area = draw.front_positive_area != 0,
                      .cull_front = draw.cull_front != 0,
                      .cull_back = draw.cull_back != 0,
-                     .bottom_left_rule = draw.bottom_left_rule != 0,
+                     .fill_rule = static_cast<FillRule>(draw.fill_rule),
                      .bounds = {},
                      .depth_format = static_cast<DepthFormat>(draw.format),
                      .limits = {.least = draw.least_code, .most = draw.most_code},

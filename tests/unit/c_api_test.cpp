@@ -67,7 +67,7 @@ void check_random(const Machine& machine, DepthFormat format) {
       draw.func = static_cast<std::uint8_t>(source.integer(0, 7));
       draw.write = static_cast<std::uint8_t>(source.integer(0, 1));
       draw.test = format == DepthFormat::kNone ? 0 : static_cast<std::uint8_t>(source.integer(0, 5) != 0);
-      draw.bottom_left_rule = static_cast<std::uint8_t>(source.integer(0, 1));
+      draw.fill_rule = static_cast<std::uint8_t>(source.integer(0, 3));
       draw.front_positive_area = static_cast<std::uint8_t>(source.integer(0, 1));
       draw.cull_front = static_cast<std::uint8_t>(source.integer(0, 3) == 0);
       draw.cull_back = static_cast<std::uint8_t>(source.integer(0, 3) == 0);

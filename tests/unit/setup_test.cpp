@@ -49,13 +49,13 @@ TEST_CASE("setup: each edge is 0 on its own vertices and twice the area on the o
   }
 }
 
-TEST_CASE("setup: top and left edges own their samples, bottom edges under the other rule") {
+TEST_CASE("setup: of a square the sides own their samples that the rule names") {
   // a square of two triangles on pixel centres; its sides are exactly one of each kind
   const ScreenTriangle upper{{at_centre(0, 0), at_centre(8, 0), at_centre(0, 8)}, 0};
   const ScreenTriangle lower{{at_centre(8, 0), at_centre(8, 8), at_centre(0, 8)}, 0};
-  for (const bool bottom_left : {false, true}) {
+  for (const FillRule rule : kFillRules) {
     SetupState state = open_state(64);
-    state.bottom_left_rule = bottom_left;
+    state.fill_rule = rule;
     int covered[10][10] = {};
     for (const ScreenTriangle& t : {upper, lower}) {
       SetupTriangle out;
@@ -69,8 +69,11 @@ TEST_CASE("setup: top and left edges own their samples, bottom edges under the o
     }
     for (int y = 0; y < 10; ++y) {
       for (int x = 0; x < 10; ++x) {
-        const bool row = bottom_left ? y > 0 && y <= 8 : y < 8;
-        CHECK(covered[y][x] == (x < 8 && row ? 1 : 0));
+        const bool bottom = rule == FillRule::kBottomLeft || rule == FillRule::kBottomRight;
+        const bool right = rule == FillRule::kTopRight || rule == FillRule::kBottomRight;
+        const bool row = bottom ? y > 0 && y <= 8 : y < 8;
+        const bool column = right ? x > 0 && x <= 8 : x < 8;
+        CHECK(covered[y][x] == (row && column ? 1 : 0));
       }
     }
   }

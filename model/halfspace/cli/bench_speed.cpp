@@ -72,7 +72,9 @@ class SpeedBench {
  public:
   explicit SpeedBench(const SpeedOptions& options) : options_(options), config_(options.machine.config()) {
     std::string why;
-    if (!left_out("llvmpipe")) {
+    if (config_.setup.fill_rule != FillRuleKey::kDraw) {
+      why = "it has the fill rule of each draw";
+    } else if (!left_out("llvmpipe")) {
       llvmpipe_ = Llvmpipe::open(why);
     }
     const auto nothing = [] {};

@@ -35,7 +35,6 @@ struct RunCommand {
   TimelineOptions timeline;
   std::string fidelity = "functional";
   std::string reference;
-  std::string fill_rule;
   std::string out;
   std::string tile_jobs;
   std::optional<int> quad_merging;
@@ -79,10 +78,10 @@ void check_reference(const RunCommand& options) {
                                     {rtl.every_cycle, "--rtl-every-cycle"},
                                     {options.what_if.what_if().any(), "a what-if"}}) {
     if (given) {
-      throw InputError(fmt::format(
-          "--reference is '{}', given with {}; legal with it: --fill-rule, --config, --set, --out, --quads, "
-          "--no-pictures, and the camera of a mesh",
-          options.reference, name));
+      throw InputError(
+          fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
+                      "--no-pictures, and the camera of a mesh",
+                      options.reference, name));
     }
   }
 }
@@ -130,7 +129,6 @@ int run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
     run_reference({.method = command.reference,
-                   .fill_rule = command.fill_rule,
                    .out = command.out,
                    .quads = command.quads,
                    .pictures = !command.no_pictures},
@@ -215,7 +213,7 @@ void add_run_command(CLI::App& app, int& status) {
   command->add_option("--fidelity", options->fidelity, "selects the timing engine")
       ->check(CLI::IsMember(fidelities))
       ->capture_default_str();
-  add_reference_options(*command, options->reference, options->fill_rule);
+  add_reference_option(*command, options->reference);
   options->core.add_to(*command);
   options->threads.add_to(*command,
                           "Functional: each draws in columns of blocks of its own; recurrence: one runs the "

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/cli/tie_rule.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/methods.hpp"
@@ -37,11 +38,7 @@ std::uint64_t empty_unfilled_draws(Frame& frame) {
 reference::Options options_of(const ReferenceRequest& request, const Config& config) {
   reference::Options options;
   options.method = request.method;
-  for (const reference::TieRuleInfo& info : reference::kTieRules) {
-    if (info.name == request.fill_rule) {
-      options.rule = info.rule;
-    }
-  }
+  options.rule = tie_rule(config);
   options.subpixel_bits = config.raster.sub_pixel_bits;
   if (config.late_z.mode == LateZ::kLate) {
     throw InputError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
@@ -192,9 +189,8 @@ void write_colors(OutputFolder& folder, const reference::Surface& surface) {
 void print_table(const Frame& frame, const RunResult& result) {
   const Counters& c = result.frame.counters;
   const ReferenceRun& r = *result.reference;
-  fmt::print("{}: {} draws on {} depth surfaces, by the reference {}, fill rule {}\n", frame.name,
-             result.frame.draws.size(), result.frame.surfaces.size(), r.name,
-             r.fill_rule.empty() ? "of each draw" : r.fill_rule);
+  fmt::print("{}: {} draws on {} depth surfaces, by the reference {}\n", frame.name,
+             result.frame.draws.size(), result.frame.surfaces.size(), r.name);
   fmt::print("  {:<16}{:>12}  drawn of {}; {} clipped away, {} without area, {} face away, {} not finite\n",
              "triangles", r.drawn, c.front_end.triangles, c.front_end.clipped_away, r.degenerate, r.culled,
              c.front_end.non_finite);
@@ -206,23 +202,13 @@ void print_table(const Frame& frame, const RunResult& result) {
 
 }  // namespace
 
-void add_reference_options(CLI::App& command, std::string& method, std::string& fill_rule) {
+void add_reference_option(CLI::App& command, std::string& method) {
   std::vector<std::string> names;
   for (const reference::Method& each : reference::methods()) {
     names.emplace_back(each.name);
   }
-  std::vector<std::string> rules;
-  for (const reference::TieRuleInfo& info : reference::kTieRules) {
-    rules.emplace_back(info.name);
-  }
-  CLI::Option* reference =
-      command.add_option("--reference", method, "draws by a textbook rasterizer, not by the machine")
-          ->check(CLI::IsMember(names));
-  command
-      .add_option("--fill-rule", fill_rule,
-                  "whose the samples on an edge are, in all draws (default: as each draw says)")
-      ->check(CLI::IsMember(rules))
-      ->needs(reference);
+  command.add_option("--reference", method, "draws by a textbook rasterizer, not by the machine")
+      ->check(CLI::IsMember(names));
 }
 
 void run_reference(const ReferenceRequest& request, Frame frame, const Config& config) {
@@ -239,7 +225,6 @@ void run_reference(const ReferenceRequest& request, Frame frame, const Config& c
   const bool pictures = folder.has_value() && request.pictures;
   ResultBuilder builder(frame, config, record, pictures);
   builder.result.reference->name = request.method;
-  builder.result.reference->fill_rule = request.fill_rule;
   builder.result.frame.draws_not_filled = not_filled;
   const std::vector<reference::Surface> drawn = reference::rasterize(frame, options, &builder);
   builder.finish(drawn);

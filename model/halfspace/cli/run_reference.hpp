@@ -10,18 +10,17 @@
 namespace halfspace {
 
 struct ReferenceRequest {
-  std::string method;     ///< a name of reference/methods.hpp
-  std::string fill_rule;  ///< a name of reference/tie_rule.hpp; empty: that of each draw
-  std::string out;        ///< folder for results; empty: none
-  bool quads = false;     ///< write quads.npy
+  std::string method;  ///< a name of reference/methods.hpp
+  std::string out;     ///< folder for results; empty: none
+  bool quads = false;  ///< write quads.npy
   bool pictures = true;
 };
 
-/// --reference and --fill-rule.
-void add_reference_options(CLI::App& command, std::string& method, std::string& fill_rule);
+void add_reference_option(CLI::App& command, std::string& method);
 
-/// Draws `frame`, writes the result files and prints a table. Of `config` count the sub-pixel bits, what late
-/// draws do, and the sizes of blocks and tiles, which decide the order of quads. Throws InputError.
+/// Draws `frame`, writes the result files and prints a table. Of `config` count the sub-pixel bits, the fill
+/// rule, what late draws do, and the sizes of blocks and tiles, which decide the order of quads. Throws
+/// InputError.
 void run_reference(const ReferenceRequest& request, Frame frame, const Config& config);
 
 }  // namespace halfspace

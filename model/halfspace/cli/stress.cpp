@@ -11,6 +11,8 @@
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/cli/tie_rule.hpp"
+#include "halfspace/machine/draw_state.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/stress/campaign.hpp"
 #include "halfspace/stress/campaign_report.hpp"
@@ -52,9 +54,16 @@ DepthFormat format_of(const std::string& text) {
                              : DepthFormat::kFloat32;
 }
 
+/// No draw of the campaign has a rule of its own.
+stress::Precision precision_of(const StressCommand& command, const Config& config) {
+  return {.sub_pixel_bits = config.raster.sub_pixel_bits,
+          .format = format_of(command.depth),
+          .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft)};
+}
+
 stress::CampaignPlan plan_of(const StressCommand& command, const Config& config) {
   stress::CampaignPlan plan{
-      .precision = {.sub_pixel_bits = config.raster.sub_pixel_bits, .format = format_of(command.depth)},
+      .precision = precision_of(command, config),
       .depth = {.interpolator = config.depth.interpolator, .bound = command.depth_bound},
       .seed = command.seed,
       .folder = command.out};
@@ -92,10 +101,10 @@ std::unique_ptr<stress::Subject> make_subject(const StressCommand& command, Fide
     return stress::files_subject(path);
   }
   if (kind == "reference") {
-    return stress::reference_subject(path, config.raster.sub_pixel_bits);
+    return stress::reference_subject(path, precision_of(command, config));
   }
   if (kind == "wrong") {
-    return stress::wrong_subject(stress::wrong_rasterizer(path), config.raster.sub_pixel_bits);
+    return stress::wrong_subject(stress::wrong_rasterizer(path), precision_of(command, config));
   }
   throw InputError(fmt::format(
       "--engine is '{}'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME", command.engine));
@@ -106,11 +115,13 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
                        const RunOptions& options) {
   ProgressBar bar("exhaustive");
   const auto progress = [&](std::size_t done) { bar.update(done, stress::kGridPoints / command.every); };
+  const reference::TieRule rule = precision_of(command, config).rule;
   stress::ExhaustiveTally tally;
   if (command.units) {
-    tally = stress::check_units(command.every, command.threads, progress);
+    tally = stress::check_units(fill_rule(Command{}, config), rule, command.every, command.threads, progress);
   } else {
-    tally = stress::check_subject(*make_subject(command, fidelity, config, options), command.every, progress);
+    tally = stress::check_subject(*make_subject(command, fidelity, config, options), rule, command.every,
+                                  progress);
   }
   fmt::print("{} triangles, {} of them without area; {} samples: {} wrong\n", tally.triangles,
              tally.without_area, tally.samples, tally.wrong);
@@ -130,8 +141,7 @@ int sharpness_command(const StressCommand& command, const Config& config) {
   bool all_found = true;
   fmt::print("| rasterizer | what is wrong | errors | families that find it |\n|---|---|---:|---|\n");
   for (const stress::WrongRasterizer& wrong : stress::wrong_rasterizers()) {
-    const std::unique_ptr<stress::Subject> subject =
-        stress::wrong_subject(wrong, config.raster.sub_pixel_bits);
+    const std::unique_ptr<stress::Subject> subject = stress::wrong_subject(wrong, plan.precision);
     const stress::CampaignState state = stress::run_campaign(plan, *subject, [](const auto&) {});
     std::string found;
     for (const stress::FamilyState& family : state.families) {

@@ -16,6 +16,16 @@ namespace halfspace {
 /// A share of 1, as keys keep it.
 inline constexpr int kWholeShare = 1 << 16;
 
+/// Which fill rule draws have.
+enum class FillRuleKey : std::uint8_t {
+  kDraw,  ///< that of the draw, top-left or bottom-left
+  kTopLeft,
+  kBottomLeft,
+  kTopRight,
+  kBottomRight,
+  kNormalSign,  ///< A > 0, or A = 0 and B > 0; with y down and E positive inside it is top-left
+};
+
 /// How draws are taken whose shader may discard, writes depth or has side effects.
 enum class LateZ : std::uint8_t {
   kOpaque,   ///< as if every fragment were kept: they test and write at early-Z

@@ -37,6 +37,10 @@
         "from a drawn triangle to the next: the time of a divider stage", SetupInterval)                     \
     MODULE(setup., fifo, int, 40, range(2, 64), "triangles", time,                                           \
         "output FIFO of setup", SetupFifo)                                                                   \
+    KEY(setup., fill_rule, FillRuleKey, FillRuleKey::kDraw,                                                  \
+        one_of("draw", "top_left", "bottom_left", "top_right", "bottom_right", "normal_sign"), "", function, \
+        "whose the samples on an edge are: draw = as each draw says; normal_sign = edges with A > 0, or "    \
+        "A = 0 and B > 0, which is top_left here")                                                           \
   END(setup)                                                                                                 \
   BEGIN(block_walker)                                                                                        \
     PACKAGE(block_walker., block_size, int, 32, power_of_two(8, 64), "pixels", function,                     \

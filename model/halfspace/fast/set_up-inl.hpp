@@ -249,8 +249,9 @@ class Batch {
       const std::size_t to = (i + 2) % 3;
       a[i] = hn::Sub(y_[from], y_[to]);
       b[i] = hn::Sub(x_[to], x_[from]);
-      const auto top = state.bottom_left_rule ? hn::Lt(b[i], zero) : hn::Gt(b[i], zero);
-      const auto owns = hn::Or(hn::Gt(a[i], zero), hn::And(hn::Eq(a[i], zero), top));
+      const auto side = owns_right(state.fill_rule) ? hn::Lt(a[i], zero) : hn::Gt(a[i], zero);
+      const auto level = owns_bottom(state.fill_rule) ? hn::Lt(b[i], zero) : hn::Gt(b[i], zero);
+      const auto owns = hn::Or(side, hn::And(hn::Eq(a[i], zero), level));
       const WideLanes c =
           hn::Add(product(a[i], hn::Sub(centre, x_[from])), product(b[i], hn::Sub(centre, y_[from])));
       const WideLanes rule = hn::PromoteTo(wide, hn::IfThenElseZero(hn::Not(owns), hn::Set(narrow, 1)));

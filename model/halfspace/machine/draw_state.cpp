@@ -25,7 +25,7 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
           .y_last = last(scissor.y, scissor.height, target.height)};
 }
 
-PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule) {
+PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
   // Sums of two floats whose centre is wanted: exact in double wherever a target can be.
   const auto side = [](double position, double extent, bool low_is_in, std::int32_t& first,
                        std::int32_t& last) {
@@ -39,8 +39,8 @@ PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule) {
     last = pixel(low_is_in ? std::ceil(high) - 1 : std::floor(high));
   };
   PixelRect rect;
-  side(viewport.x, viewport.z, true, rect.x_first, rect.x_last);
-  side(viewport.y, viewport.w, !bottom_left_rule, rect.y_first, rect.y_last);
+  side(viewport.x, viewport.z, !owns_right(rule), rect.x_first, rect.x_last);
+  side(viewport.y, viewport.w, !owns_bottom(rule), rect.y_first, rect.y_last);
   return rect;
 }
 
@@ -60,15 +60,31 @@ DepthLimits depth_limits(const Command& draw, DepthFormat format) {
   return {.least = code_of_depth(format, least), .most = code_of_depth(format, most)};
 }
 
+FillRule fill_rule(const Command& draw, const Config& config) {
+  switch (config.setup.fill_rule) {
+    case FillRuleKey::kDraw:
+      break;
+    case FillRuleKey::kTopLeft:
+    case FillRuleKey::kNormalSign:
+      return FillRule::kTopLeft;
+    case FillRuleKey::kBottomLeft:
+      return FillRule::kBottomLeft;
+    case FillRuleKey::kTopRight:
+      return FillRule::kTopRight;
+    case FillRuleKey::kBottomRight:
+      return FillRule::kBottomRight;
+  }
+  return draw.has(Flag::kBottomLeftRule) ? FillRule::kBottomLeft : FillRule::kTopLeft;
+}
+
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
-  const bool bottom_left_rule = draw.has(Flag::kBottomLeftRule);
+  const FillRule rule = fill_rule(draw, config);
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
-          .bottom_left_rule = bottom_left_rule,
-          .bounds =
-              intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, bottom_left_rule)),
+          .fill_rule = rule,
+          .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
           .depth_format = format,
           .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator,
@@ -107,7 +123,7 @@ DrawStatePacket draw_state_packet(const SetupState& setup, const EarlyZState& ea
       .front_positive_area = flag(setup.front_positive_area),
       .cull_front = flag(setup.cull_front),
       .cull_back = flag(setup.cull_back),
-      .bottom_left_rule = flag(setup.bottom_left_rule),
+      .fill_rule = static_cast<std::uint8_t>(setup.fill_rule),
       .empty = flag(setup.bounds.empty()),
       .format = static_cast<std::uint8_t>(setup.depth_format),
       .least_code = setup.limits.least,

@@ -19,12 +19,15 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 
 /// The pixels whose centre lies in the viewport, which is x, y, width and height; a width or height may be
 /// negative. Clipping to the sides of the clip volume would leave no sample outside of them.
-PixelRect viewport_rect(const glm::vec4& viewport, bool bottom_left_rule);
+PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule);
 
 /// Depth clamp keeps fragments within the draw's depth range; without it they are kept within [0, 1].
 DepthLimits depth_limits(const Command& draw, DepthFormat format);
 
 WalkerConfig walker_config(const Config& config);
+
+/// That of the draw, or that of all draws where the configuration has one.
+FillRule fill_rule(const Command& draw, const Config& config);
 
 /// `format` is that of the target's depth surface, none where it has none.
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);

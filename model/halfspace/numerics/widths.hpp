@@ -26,6 +26,7 @@ namespace halfspace {
   W(EdgeCount,       3,                                                "edges of a triangle: one accept bit each")     \
   W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share") \
   W(FlagBits,        1,                                                "yes or no")                                  \
+  W(FillRuleBits,    2,                                                "bit 0: bottom edges own the samples on them, not top ones; bit 1: right edges, not left ones") \
   W(VertexDepthBits, 48,                                               "depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits") \
   W(WordBits,        64,                                               "depth with the binary point behind the sign, on a scale of the triangle") \
   W(HalfGradientBits, 43,                                              "half of a gradient of depth: a word and 22 bits below it, together 86") \

@@ -39,7 +39,6 @@ Json counters_json(const Counters& counters, bool of_reference) {
 
 Json reference_json(const ReferenceRun& reference) {
   return {{"name", reference.name},
-          {"fill_rule", reference.fill_rule.empty() ? Json() : Json(reference.fill_rule)},
           {"degenerate", reference.degenerate},
           {"culled", reference.culled},
           {"drawn", reference.drawn}};

@@ -55,7 +55,6 @@ constexpr const FidelityInfo& info(Fidelity fidelity) {
 /// The reference rasterizer that made a result, and what it counts of the frame that no unit does.
 struct ReferenceRun {
   std::string name;
-  std::string fill_rule;         ///< empty: that of each draw
   std::uint64_t degenerate = 0;  ///< triangles
   std::uint64_t culled = 0;
   std::uint64_t drawn = 0;

@@ -41,7 +41,7 @@ ScalarDraw scalar_draw(const DrawContext& draw) {
           .front_positive_area = draw.setup.front_positive_area,
           .cull_front = draw.setup.cull_front,
           .cull_back = draw.setup.cull_back,
-          .bottom_left_rule = draw.setup.bottom_left_rule,
+          .fill_rule = draw.setup.fill_rule,
           .triangles = {}};
 }
 
@@ -52,13 +52,12 @@ struct EdgeFunction {
   std::int64_t dy = 0;
 };
 
-/// From `from` to `to`, going round with positive area. A sample on the edge belongs to the triangle where
-/// the edge is a left one, or a top one (or a bottom one, for programs whose y axis points up).
+/// From `from` to `to`, going round with positive area.
 EdgeFunction edge_function(const ScalarTriangle& t, std::size_t from, std::size_t to, std::int64_t x,
-                           std::int64_t y, int sub_pixel_bits, bool bottom_left_rule) {
+                           std::int64_t y, int sub_pixel_bits, FillRule rule) {
   const std::int64_t a = t.y[from] - t.y[to];
   const std::int64_t b = t.x[to] - t.x[from];
-  const bool owns = a > 0 || (a == 0 && (bottom_left_rule ? b < 0 : b > 0));
+  const bool owns = a != 0 ? (a > 0) != owns_right(rule) : (b > 0) != owns_bottom(rule);
   return {.value = a * (x - t.x[from]) + b * (y - t.y[from]) - (owns ? 0 : 1),
           .dx = a << sub_pixel_bits,
           .dy = b << sub_pixel_bits};
@@ -115,9 +114,9 @@ void draw_triangle(const ScalarTriangle& t, const ScalarDraw& draw, int sub_pixe
   const Plane depth = plane(t, area2, x0, y0, sub_pixel_bits);
   const std::size_t second = area2 > 0 ? 1 : 2;
   const std::size_t third = 3 - second;
-  EdgeFunction e0 = edge_function(t, second, third, x0, y0, sub_pixel_bits, draw.bottom_left_rule);
-  EdgeFunction e1 = edge_function(t, third, 0, x0, y0, sub_pixel_bits, draw.bottom_left_rule);
-  EdgeFunction e2 = edge_function(t, 0, second, x0, y0, sub_pixel_bits, draw.bottom_left_rule);
+  EdgeFunction e0 = edge_function(t, second, third, x0, y0, sub_pixel_bits, draw.fill_rule);
+  EdgeFunction e1 = edge_function(t, third, 0, x0, y0, sub_pixel_bits, draw.fill_rule);
+  EdgeFunction e2 = edge_function(t, 0, second, x0, y0, sub_pixel_bits, draw.fill_rule);
   for (std::int32_t y = y_first; y <= y_last; ++y) {
     const float row = depth.z + depth.dy * static_cast<float>(y - y_first);
     std::int64_t w0 = e0.value;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/numerics/fill_rule.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -38,7 +39,7 @@ struct ScalarDraw {
   bool front_positive_area = false;
   bool cull_front = false;
   bool cull_back = false;
-  bool bottom_left_rule = false;
+  FillRule fill_rule = FillRule::kTopLeft;
   std::vector<ScalarTriangle> triangles;
 };
 

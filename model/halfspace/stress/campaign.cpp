@@ -55,7 +55,7 @@ Finding draw_and_judge(const CampaignPlan& plan, const Family& family, std::uint
 }
 
 CampaignState fresh_state(const CampaignPlan& plan, const Subject& subject) {
-  CampaignState state{.subject = subject.name(), .seed = plan.seed};
+  CampaignState state{.subject = subject.name(), .precision = to_text(plan.precision), .seed = plan.seed};
   for (const Family* family : plan.families) {
     state.families.push_back({.family = std::string(family->name)});
   }
@@ -91,6 +91,7 @@ CampaignState found_state(const CampaignPlan& plan, const Subject& subject) {
     }
   };
   refuse("subject", found.subject, state.subject);
+  refuse("precision", found.precision, state.precision);
   refuse("seed", found.seed, state.seed);
   refuse("families", names(found), names(state));
   return found;

@@ -44,6 +44,7 @@ struct FamilyState {
 
 struct CampaignState {
   std::string subject{};
+  std::string precision{};  ///< of the cases, for people
   std::uint64_t seed = 0;
   std::uint64_t sittings = 0;
   double seconds = 0;  ///< of all sittings

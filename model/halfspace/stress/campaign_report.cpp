@@ -64,10 +64,10 @@ void write(const std::filesystem::path& path, const std::string& text) {
 std::string report_page(const CampaignPlan& plan, const CampaignState& state) {
   const Tally sum = state.sum();
   std::string page = fmt::format(
-      "# Stress campaign\n\n{}; {} sub-pixel bits, {}; seed {}. {:.0f} seconds in {} sitting{}.\n\n"
+      "# Stress campaign\n\n{}; {}; seed {}. {:.0f} seconds in {} sitting{}.\n\n"
       "{} samples of {} triangles in {} frames: **{} errors**.\n\n",
-      state.subject, plan.precision.sub_pixel_bits, name(plan.precision.format), state.seed, state.seconds,
-      state.sittings, state.sittings == 1 ? "" : "s", sum.samples, sum.triangles, sum.cases, sum.errors());
+      state.subject, state.precision, state.seed, state.seconds, state.sittings,
+      state.sittings == 1 ? "" : "s", sum.samples, sum.triangles, sum.cases, sum.errors());
   page +=
       "| family | law | frames | triangles | samples | missing | extra | moved | tiles judged | unsound | "
       "mistested | depths | inexact | out of range | worst depth, units | of its bound | failed |\n";

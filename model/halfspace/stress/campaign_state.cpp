@@ -46,8 +46,9 @@ nlohmann::json to_json(const CampaignState& state) {
     }
     families.push_back(json);
   }
-  return {{"schema", 1},
+  return {{"schema", 2},
           {"subject", state.subject},
+          {"precision", state.precision},
           {"seed", state.seed},
           {"sittings", state.sittings},
           {"seconds", state.seconds},
@@ -57,6 +58,7 @@ nlohmann::json to_json(const CampaignState& state) {
 
 CampaignState campaign_state(const nlohmann::json& json) {
   CampaignState state{.subject = json.at("subject"),
+                      .precision = json.at("precision"),
                       .seed = json.at("seed"),
                       .sittings = json.at("sittings"),
                       .seconds = json.at("seconds")};

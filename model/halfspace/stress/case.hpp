@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "halfspace/reference/exact_triangle.hpp"
@@ -15,7 +16,11 @@ namespace halfspace::stress {
 struct Precision {
   int sub_pixel_bits = 8;
   DepthFormat format = DepthFormat::kUnorm24;
+  reference::TieRule rule = reference::TieRule::kTopLeft;  ///< of all draws
 };
+
+/// For people: "8 sub-pixel bits, unorm24, fill rule top_left".
+std::string to_text(const Precision& precision);
 
 /// A triangle whose window coordinates are on the sub-pixel grid, and arrive there unrounded: w is 1, and the
 /// target's side a power of two. So the definition says which samples it covers.

@@ -21,11 +21,6 @@ namespace {
 
 GridPoint point(std::uint32_t number) { return {number % kGridSide, number / kGridSide}; }
 
-/// Top-left: a left edge goes up, a top edge to the right; y is down, and positive area clockwise.
-bool owns(const GridPoint& from, const GridPoint& to) {
-  return to.y != from.y ? to.y < from.y : to.x > from.x;
-}
-
 std::int64_t twice_area(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return static_cast<std::int64_t>(reference::twice_area(point(a), point(b), point(c)));
 }
@@ -35,7 +30,7 @@ template <int TileSize>
 class UnitChain {
  public:
   /// The square's top left pixel is (corner, corner).
-  explicit UnitChain(int corner) : corner_(corner) {}
+  UnitChain(int corner, FillRule rule) : corner_(corner) { state_.fill_rule = rule; }
 
   /// The samples of the square that are covered, as in GridDefinition; counts what quads and tiles get wrong.
   std::uint8_t draw(const std::array<std::uint32_t, 3>& points, std::uint8_t expected,
@@ -110,8 +105,9 @@ class UnitChain {
 };
 
 template <int TileSize>
-void check_point(std::uint32_t first, int corner, const GridDefinition& definition, ExhaustiveTally& tally) {
-  UnitChain<TileSize> units(corner);
+void check_point(std::uint32_t first, int corner, FillRule rule, const GridDefinition& definition,
+                 ExhaustiveTally& tally) {
+  UnitChain<TileSize> units(corner, rule);
   const auto draw = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint8_t expected) {
     const std::uint8_t got = units.draw({a, b, c}, expected, tally);
     ++tally.triangles;
@@ -133,7 +129,7 @@ void check_point(std::uint32_t first, int corner, const GridDefinition& definiti
 
 /// The samples that setup puts inside the edge from one point to another, from a triangle that it belongs to;
 /// none where no point of the grid makes one.
-std::optional<std::uint8_t> inside_edge(std::uint32_t from, std::uint32_t to) {
+std::optional<std::uint8_t> inside_edge(std::uint32_t from, std::uint32_t to, FillRule rule) {
   std::uint32_t third = 0;
   while (third < kGridPoints && twice_area(from, to, third) <= 0) {
     ++third;
@@ -149,8 +145,8 @@ std::optional<std::uint8_t> inside_edge(std::uint32_t from, std::uint32_t to) {
     in.v[i].y = static_cast<std::int32_t>(point(points[i]).y);
   }
   SetupTriangle out;
-  if (setup(in, {.sub_pixel_bits = kGridBits, .bounds = {.x_last = 255, .y_last = 255}}, out) !=
-      SetupVerdict::kDrawn) {
+  if (setup(in, {.sub_pixel_bits = kGridBits, .fill_rule = rule, .bounds = {.x_last = 255, .y_last = 255}},
+            out) != SetupVerdict::kDrawn) {
     return std::nullopt;
   }
   const auto a = static_cast<std::int32_t>(point(from).y - point(to).y);
@@ -167,10 +163,11 @@ std::optional<std::uint8_t> inside_edge(std::uint32_t from, std::uint32_t to) {
 }
 
 /// Of the edges between a point and all later ones: every sample lies on one side of the edge, never on both.
-void check_edges(std::uint32_t first, const GridDefinition& definition, ExhaustiveTally& tally) {
+void check_edges(std::uint32_t first, FillRule rule, const GridDefinition& definition,
+                 ExhaustiveTally& tally) {
   for (std::uint32_t second = first + 1; second < kGridPoints; ++second) {
-    const auto there = inside_edge(first, second);
-    const auto back = inside_edge(second, first);
+    const auto there = inside_edge(first, second, rule);
+    const auto back = inside_edge(second, first, rule);
     if (there && back) {
       ++tally.edges;
       tally.on_edges += static_cast<std::uint64_t>(std::popcount(definition.on(first, second)));
@@ -182,14 +179,16 @@ void check_edges(std::uint32_t first, const GridDefinition& definition, Exhausti
 
 }  // namespace
 
-GridDefinition::GridDefinition()
+GridDefinition::GridDefinition(reference::TieRule rule)
     : inside_(std::size_t{kGridPoints} * kGridPoints), on_(std::size_t{kGridPoints} * kGridPoints) {
   for (std::uint32_t from = 0; from < kGridPoints; ++from) {
     for (std::uint32_t to = 0; to < kGridPoints; ++to) {
       for (int i = 0; i < 4; ++i) {
         const reference::Int128 side =
             reference::twice_area(point(from), point(to), reference::pixel_centre(i % 2, i / 2, kGridBits));
-        const bool inside = side > 0 || (side == 0 && owns(point(from), point(to)));
+        const reference::Int128 a = point(from).y - point(to).y;
+        const reference::Int128 b = point(to).x - point(from).x;
+        const bool inside = side > 0 || (side == 0 && reference::owns_samples(a, b, rule));
         const std::size_t at = from * kGridPoints + to;
         inside_[at] |= static_cast<std::uint8_t>(inside ? 1 << i : 0);
         on_[at] |= static_cast<std::uint8_t>(side == 0 ? 1 << i : 0);
@@ -212,9 +211,9 @@ ExhaustiveTally& ExhaustiveTally::operator+=(const ExhaustiveTally& other) {
   return *this;
 }
 
-ExhaustiveTally check_units(std::uint32_t every, int threads,
+ExhaustiveTally check_units(FillRule units, reference::TieRule rule, std::uint32_t every, int threads,
                             const std::function<void(std::size_t)>& progress) {
-  const GridDefinition definition;
+  const GridDefinition definition(rule);
   ExhaustiveTally sum;
   std::mutex mutex;
   std::size_t done = 0;
@@ -222,11 +221,11 @@ ExhaustiveTally check_units(std::uint32_t every, int threads,
     ExhaustiveTally tally;
     const auto first = static_cast<std::uint32_t>(i) * every;
     // Pixel 6 or 15 is the last but one, or the last, of a tile of any size.
-    check_point<8>(first, 6, definition, tally);
-    check_point<4>(first, 15, definition, tally);
-    check_point<8>(first, 15, definition, tally);
-    check_point<16>(first, 15, definition, tally);
-    check_edges(first, definition, tally);
+    check_point<8>(first, 6, units, definition, tally);
+    check_point<4>(first, 15, units, definition, tally);
+    check_point<8>(first, 15, units, definition, tally);
+    check_point<16>(first, 15, units, definition, tally);
+    check_edges(first, units, definition, tally);
     const std::lock_guard lock(mutex);
     sum += tally;
     progress(++done);
@@ -234,11 +233,11 @@ ExhaustiveTally check_units(std::uint32_t every, int threads,
   return sum;
 }
 
-ExhaustiveTally check_subject(Subject& subject, std::uint32_t every,
+ExhaustiveTally check_subject(Subject& subject, reference::TieRule rule, std::uint32_t every,
                               const std::function<void(std::size_t)>& progress) {
   // A pixel counts up to 65535 fragments.
   constexpr std::size_t kMostTriangles = 65535;
-  const GridDefinition definition;
+  const GridDefinition definition(rule);
   DrawList list({.sub_pixel_bits = kGridBits}, 16, 0);
   Command& draw = list.draw();
   draw.flags &= ~bits({Flag::kDepthWrite});

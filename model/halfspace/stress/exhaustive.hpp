@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "halfspace/numerics/fill_rule.hpp"
+#include "halfspace/reference/tie_rule.hpp"
 #include "halfspace/stress/subject.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -19,7 +21,7 @@ inline constexpr std::uint32_t kGridPoints = kGridSide * kGridSide;  ///< number
 /// Which samples of the square a triangle covers, by the definition: looked up by its edges.
 class GridDefinition {
  public:
-  GridDefinition();
+  explicit GridDefinition(reference::TieRule rule);
 
   /// Of three points that make a triangle of positive area: bit y * 2 + x.
   [[nodiscard]] std::uint8_t covered(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -58,14 +60,15 @@ struct ExhaustiveTally {
 
 /// Puts all triangles whose least point is one of every `every`, in both windings, through setup,
 /// block_walker, tile_walker, edge_evaluator and quad_generator with tiles of 4, 8 and 16 pixels in turn, at
-/// two places: in one quad, and astride four tiles. `progress` hears of points done.
-ExhaustiveTally check_units(std::uint32_t every, int threads,
+/// two places: in one quad, and astride four tiles. `units` is their fill rule, `rule` what the definition
+/// calls it. `progress` hears of points done.
+ExhaustiveTally check_units(FillRule units, reference::TieRule rule, std::uint32_t every, int threads,
                             const std::function<void(std::size_t)>& progress);
 
 /// Draws the same triangles, in one winding in one quad, as frames of many triangles, and compares each
-/// frame's fragments with the sums of the definition. An engine that compares its own packets (the RTL)
-/// throws where they differ.
-ExhaustiveTally check_subject(Subject& subject, std::uint32_t every,
+/// frame's fragments with the sums of the definition by the rule. An engine that compares its own packets
+/// (the RTL) throws where they differ.
+ExhaustiveTally check_subject(Subject& subject, reference::TieRule rule, std::uint32_t every,
                               const std::function<void(std::size_t)>& progress);
 
 }  // namespace halfspace::stress

@@ -53,6 +53,15 @@ const Family& family_of(std::string_view name) {
   throw InputError(fmt::format("family is '{}'; it must be one of {}", name, names));
 }
 
+std::string to_text(const Precision& precision) {
+  std::string_view rule;
+  for (const reference::TieRuleInfo& info : reference::kTieRules) {
+    rule = info.rule == precision.rule ? info.name : rule;
+  }
+  return fmt::format("{} sub-pixel bits, {}, fill rule {}", precision.sub_pixel_bits, name(precision.format),
+                     rule);
+}
+
 Case make_case(const Family& family, const Precision& precision, std::uint64_t seed, std::uint64_t index) {
   SplitMix64 mix(seed);
   std::uint64_t state = mix.next();

@@ -167,7 +167,7 @@ Case depth_stack(const Precision& precision, std::uint64_t seed) {
       for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
           const std::size_t pixel = y * kSize + x;
-          if (reference::covers(triangle, list.centre(x, y), reference::TieRule::kTopLeft) &&
+          if (reference::covers(triangle, list.centre(x, y), precision.rule) &&
               reference::depth_test(static_cast<std::uint32_t>(func), layer, stored[pixel])) {
             ++survivors[pixel];
             stored[pixel] = writes ? layer : stored[pixel];

@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-reference::TieRule tie_rule(const Frame& frame, const KnownTriangle& triangle) {
-  return frame.commands[triangle.command].has(Flag::kBottomLeftRule) ? reference::TieRule::kBottomLeft
-                                                                     : reference::TieRule::kTopLeft;
-}
-
 /// What the definition says of the known triangles.
 struct Definition {
   std::uint64_t samples = 0;              ///< looked at: all that lie in the box of a triangle
@@ -38,11 +33,10 @@ Definition define(const Case& made, const Precision& precision) {
     const auto pixel = [&](std::int64_t position, std::uint32_t size) {
       return std::clamp<std::int64_t>(position >> precision.sub_pixel_bits, 0, std::int64_t{size} - 1);
     };
-    const reference::TieRule rule = tie_rule(made.frame, triangle);
     for (std::int64_t y = pixel(top, target.height); y <= pixel(bottom, target.height); ++y) {
       for (std::int64_t x = pixel(left, target.width); x <= pixel(right, target.width); ++x) {
         ++result.samples;
-        if (reference::covers(v, reference::pixel_centre(x, y, precision.sub_pixel_bits), rule)) {
+        if (reference::covers(v, reference::pixel_centre(x, y, precision.sub_pixel_bits), precision.rule)) {
           const auto at = static_cast<std::size_t>(y * target.width + x);
           ++result.fragments[at];
           result.last[at] = i;
@@ -104,9 +98,8 @@ void judge_decisions(const Case& made, const Precision& precision, const Picture
          ++y) {
       for (std::uint32_t x = decision.tile_x * size;
            x < std::min((decision.tile_x + 1) * size, picture.width); ++x) {
-        const bool covered =
-            reference::covers(triangle.grid, reference::pixel_centre(x, y, precision.sub_pixel_bits),
-                              tie_rule(made.frame, triangle));
+        const bool covered = reference::covers(
+            triangle.grid, reference::pixel_centre(x, y, precision.sub_pixel_bits), precision.rule);
         sound &= covered != rejected;
       }
     }

@@ -10,22 +10,22 @@ namespace {
 
 class Reference final : public Subject {
  public:
-  Reference(const reference::Method& method, int sub_pixel_bits)
-      : method_(method), sub_pixel_bits_(sub_pixel_bits) {}
+  Reference(const reference::Method& method, const Precision& precision)
+      : method_(method), precision_(precision) {}
 
   [[nodiscard]] std::string name() const override { return fmt::format("reference {}", method_.name); }
 
-  Picture draw(const Frame& frame) override { return reference_picture(frame, sub_pixel_bits_, method_); }
+  Picture draw(const Frame& frame) override { return reference_picture(frame, precision_, method_); }
 
  private:
   reference::Method method_;
-  int sub_pixel_bits_;
+  Precision precision_;
 };
 
 }  // namespace
 
-std::unique_ptr<Subject> reference_subject(std::string_view method, int sub_pixel_bits) {
-  return std::make_unique<Reference>(reference::method_of(method), sub_pixel_bits);
+std::unique_ptr<Subject> reference_subject(std::string_view method, const Precision& precision) {
+  return std::make_unique<Reference>(reference::method_of(method), precision);
 }
 
 }  // namespace halfspace::stress

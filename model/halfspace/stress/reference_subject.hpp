@@ -5,11 +5,12 @@
 #include <memory>
 #include <string_view>
 
+#include "halfspace/stress/case.hpp"
 #include "halfspace/stress/subject.hpp"
 
 namespace halfspace::stress {
 
 /// One of reference::methods(). Throws InputError, with the legal names.
-std::unique_ptr<Subject> reference_subject(std::string_view method, int sub_pixel_bits);
+std::unique_ptr<Subject> reference_subject(std::string_view method, const Precision& precision);
 
 }  // namespace halfspace::stress

@@ -68,7 +68,7 @@ void with_ties(const Piece& piece, Fragments& fragments, const Owns& owns) {
 }
 
 bool is_right(const Piece& piece, std::int64_t x, std::int64_t y) {
-  return reference::covers(piece.grid, piece.centre(x, y), reference::TieRule::kTopLeft);
+  return reference::covers(piece.grid, piece.centre(x, y), piece.rule);
 }
 
 /// Right, in another box.
@@ -188,9 +188,8 @@ void coarse_grid(const Piece& piece, Fragments& fragments) {
   for (GridPoint& p : t) {
     p = {(p.x + step / 2) & -step, (p.y + step / 2) & -step};
   }
-  fill(piece, piece.bounds, fragments, [&](std::int64_t x, std::int64_t y) {
-    return reference::covers(t, piece.centre(x, y), reference::TieRule::kTopLeft);
-  });
+  fill(piece, piece.bounds, fragments,
+       [&](std::int64_t x, std::int64_t y) { return reference::covers(t, piece.centre(x, y), piece.rule); });
 }
 
 void edges_of_32_bits(const Piece& piece, Fragments& fragments) {
@@ -232,7 +231,7 @@ void corner_samples(const Piece& piece, Fragments& fragments) {
   fill(piece, piece.bounds, fragments, [&](std::int64_t x, std::int64_t y) {
     const GridPoint centre = piece.centre(x, y);
     const std::int64_t half = (std::int64_t{1} << piece.subpixel_bits) / 2;
-    return reference::covers(piece.grid, {centre.x - half, centre.y - half}, reference::TieRule::kTopLeft);
+    return reference::covers(piece.grid, {centre.x - half, centre.y - half}, piece.rule);
   });
 }
 

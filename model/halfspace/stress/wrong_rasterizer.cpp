@@ -221,7 +221,7 @@ constexpr std::array kWrong{
 
 class Wrong final : public Subject {
  public:
-  Wrong(const WrongRasterizer& wrong, int sub_pixel_bits) : wrong_(wrong), sub_pixel_bits_(sub_pixel_bits) {}
+  Wrong(const WrongRasterizer& wrong, const Precision& precision) : wrong_(wrong), precision_(precision) {}
 
   [[nodiscard]] std::string name() const override { return fmt::format("wrong on purpose: {}", wrong_.name); }
 
@@ -230,12 +230,12 @@ class Wrong final : public Subject {
     if (wrong_.twist != nullptr) {
       wrong_.twist(twisted);
     }
-    return reference_picture(twisted, sub_pixel_bits_, {wrong_.name, wrong_.draw});
+    return reference_picture(twisted, precision_, {wrong_.name, wrong_.draw});
   }
 
  private:
   const WrongRasterizer& wrong_;
-  int sub_pixel_bits_;
+  Precision precision_;
 };
 
 }  // namespace
@@ -253,8 +253,8 @@ const WrongRasterizer& wrong_rasterizer(std::string_view name) {
   throw InputError(fmt::format("wrong rasterizer is '{}'; it must be one of {}", name, names));
 }
 
-std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, int sub_pixel_bits) {
-  return std::make_unique<Wrong>(wrong, sub_pixel_bits);
+std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, const Precision& precision) {
+  return std::make_unique<Wrong>(wrong, precision);
 }
 
 }  // namespace halfspace::stress

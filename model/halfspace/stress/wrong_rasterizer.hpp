@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "halfspace/reference/methods.hpp"
+#include "halfspace/stress/case.hpp"
 #include "halfspace/stress/subject.hpp"
 
 namespace halfspace::stress {
@@ -22,6 +23,6 @@ std::span<const WrongRasterizer> wrong_rasterizers();
 /// Throws InputError, with the legal names.
 const WrongRasterizer& wrong_rasterizer(std::string_view name);
 
-std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, int sub_pixel_bits);
+std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, const Precision& precision);
 
 }  // namespace halfspace::stress

@@ -46,7 +46,7 @@ struct DrawStatePacket {
   std::uint8_t front_positive_area = 0;
   std::uint8_t cull_front = 0;
   std::uint8_t cull_back = 0;
-  std::uint8_t bottom_left_rule = 0;
+  std::uint8_t fill_rule = 0;
   std::uint8_t empty = 0;  ///< the bounds hold no pixel
   std::uint16_t x_first = 0;
   std::uint16_t x_last = 0;
@@ -71,7 +71,7 @@ struct DrawStatePacket {
     visit("front_positive_area", &P::front_positive_area, &Widths::FlagBits, Sign::kUnsigned);
     visit("cull_front", &P::cull_front, &Widths::FlagBits, Sign::kUnsigned);
     visit("cull_back", &P::cull_back, &Widths::FlagBits, Sign::kUnsigned);
-    visit("bottom_left_rule", &P::bottom_left_rule, &Widths::FlagBits, Sign::kUnsigned);
+    visit("fill_rule", &P::fill_rule, &Widths::FillRuleBits, Sign::kUnsigned);
     visit("empty", &P::empty, &Widths::FlagBits, Sign::kUnsigned);
     visit("x_first", &P::x_first, &Widths::PixelBits, Sign::kUnsigned);
     visit("x_last", &P::x_last, &Widths::PixelBits, Sign::kUnsigned);
@@ -99,7 +99,7 @@ inline SetupState setup_state(const DrawStatePacket& draw, int sub_pixel_bits,
                    .front_positive_area = draw.front_positive_area != 0,
                    .cull_front = draw.cull_front != 0,
                    .cull_back = draw.cull_back != 0,
-                   .bottom_left_rule = draw.bottom_left_rule != 0,
+                   .fill_rule = static_cast<FillRule>(draw.fill_rule),
                    .bounds = {},
                    .depth_format = static_cast<DepthFormat>(draw.format),
                    .limits = {.least = draw.least_code, .most = draw.most_code},

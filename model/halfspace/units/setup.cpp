@@ -25,12 +25,6 @@ void rotate_to_first(std::array<ScreenVertex, 3>& v) {
   std::rotate(v.begin(), std::min_element(v.begin(), v.end(), above), v.end());
 }
 
-/// Whether a sample exactly on the edge belongs to the triangle. Going round with positive area, a left edge
-/// has a > 0; a horizontal edge is a top edge when b > 0 and a bottom edge when b < 0.
-bool owns_its_samples(const Edge& edge, bool bottom_left_rule) {
-  return edge.a > 0 || (edge.a == 0 && (bottom_left_rule ? edge.b < 0 : edge.b > 0));
-}
-
 }  // namespace
 
 PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits) {
@@ -76,7 +70,7 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
     Edge& edge = out.edge[i];
     edge.a = from.y - to.y;
     edge.b = to.x - from.x;
-    const bool owns = owns_its_samples(edge, state.bottom_left_rule);
+    const bool owns = owns_its_samples(edge.a, edge.b, state.fill_rule);
     edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y) - (owns ? 0 : 1);
     out.depth.bias[i] = owns ? 0 : 1;
   }

@@ -1,12 +1,12 @@
 /// setup: from a snapped triangle to edge equations, bounds and a depth equation, or to the reason it is
 /// dropped.
 ///
-/// Edge functions with the top-left rule folded into the constant: J. Pineda, "A Parallel Algorithm for
-/// Polygon Rasterization", SIGGRAPH 1988; the rule itself: Direct3D 11.3 functional specification, section
-/// 3.4.2.1.
+/// Edge functions with the fill rule folded into the constant: J. Pineda, "A Parallel Algorithm for Polygon
+/// Rasterization", SIGGRAPH 1988.
 #pragma once
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/numerics/fill_rule.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -18,7 +18,7 @@ struct SetupState {
   bool front_positive_area = false;
   bool cull_front = false;
   bool cull_back = false;
-  bool bottom_left_rule = false;
+  FillRule fill_rule = FillRule::kTopLeft;
   PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
