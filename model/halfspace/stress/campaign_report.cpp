@@ -50,6 +50,21 @@ void each_finding(const FamilyState& family, const Visit& visit) {
   }
 }
 
+using Colour = std::array<std::uint8_t, 3>;
+
+/// A picture of squares, one for each pixel; colour(pixel) is its colour.
+template <class ColourOf>
+halfspace::Picture zoomed(const Picture& picture, const ColourOf& colour) {
+  halfspace::Picture image(static_cast<int>(picture.width) * kZoom, static_cast<int>(picture.height) * kZoom);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      image.at(x, y) =
+          colour(static_cast<std::size_t>(y / kZoom) * picture.width + static_cast<std::size_t>(x / kZoom));
+    }
+  }
+  return image;
+}
+
 void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream out(path);
   out << text;
@@ -83,7 +98,8 @@ std::string report_page(const CampaignPlan& plan, const CampaignState& state) {
   page +=
       "\n## Cases\n\nThe first wrong ones of each family, and the one with the worst depth. Each is a frame "
       "in `cases/` that `halfspace run` takes, with a picture: grey as expected, red fragments missing, "
-      "blue too many, white not judged.\n\n";
+      "blue too many, white not judged. Where depth is judged a second picture has how far it is off: from "
+      "black, exact, to white, its bound; red is beyond it, blue not judged.\n\n";
   for (const FamilyState& family : state.families) {
     each_finding(family, [&](const Finding& finding) {
       page += fmt::format("- `{}`: {}\n", case_name(plan, family, finding), errors_of(finding));
@@ -94,27 +110,33 @@ std::string report_page(const CampaignPlan& plan, const CampaignState& state) {
 
 halfspace::Picture coverage_picture(const Case& made, const Precision& precision, const Picture& picture) {
   const std::vector<std::int32_t> expected = expected_fragments(made, precision);
-  halfspace::Picture image(static_cast<int>(picture.width) * kZoom, static_cast<int>(picture.height) * kZoom);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const auto at =
-          static_cast<std::size_t>(y / kZoom) * picture.width + static_cast<std::size_t>(x / kZoom);
-      const std::int64_t got = picture.fragments[at];
-      const std::int64_t wanted = made.partition ? 1 : at < expected.size() ? expected[at] : kUncertain;
-      const auto grey = static_cast<std::uint8_t>(255 - 255 / (got + 1));
-      auto& colour = image.at(x, y);
-      if (wanted == kUncertain) {
-        colour = {255, 255, 255};
-      } else if (got < wanted) {
-        colour = {255, 0, 0};
-      } else if (got > wanted) {
-        colour = {0, 0, 255};
-      } else {
-        colour = {grey, grey, grey};
-      }
+  return zoomed(picture, [&](std::size_t at) -> Colour {
+    const std::int64_t got = picture.fragments[at];
+    const std::int64_t wanted = made.partition ? 1 : at < expected.size() ? expected[at] : kUncertain;
+    if (wanted == kUncertain) {
+      return {255, 255, 255};
     }
-  }
-  return image;
+    if (got != wanted) {
+      return got < wanted ? Colour{255, 0, 0} : Colour{0, 0, 255};
+    }
+    const auto grey = static_cast<std::uint8_t>(255 - 255 / (got + 1));
+    return {grey, grey, grey};
+  });
+}
+
+halfspace::Picture depth_picture(const Case& made, const CampaignPlan& plan, const Picture& picture) {
+  const std::vector<double> shares = depth_shares(made, plan.precision, plan.depth, picture);
+  return zoomed(picture, [&](std::size_t at) -> Colour {
+    const double share = shares[at];
+    if (share == kNotJudged) {
+      return {0, 0, 128};
+    }
+    if (share > 1) {
+      return {255, 0, 0};
+    }
+    const auto grey = static_cast<std::uint8_t>(255 * share);
+    return {grey, grey, grey};
+  });
 }
 
 void write_report(const CampaignPlan& plan, const CampaignState& state, Subject& subject) {
@@ -129,7 +151,11 @@ void write_report(const CampaignPlan& plan, const CampaignState& state, Subject&
         write_ptf(made.twin->frame, cases / (name + "-twin.ptf.xz"));
       }
       if (finding.error.empty()) {
-        write_png(cases / (name + ".png"), coverage_picture(made, plan.precision, subject.draw(made.frame)));
+        const Picture picture = subject.draw(made.frame);
+        write_png(cases / (name + ".png"), coverage_picture(made, plan.precision, picture));
+        if (made.depth) {
+          write_png(cases / (name + "-depth.png"), depth_picture(made, plan, picture));
+        }
       }
     });
   }

@@ -42,10 +42,12 @@ Case guard_band(const Precision& precision, std::uint64_t seed);
 Case fan(const Precision& precision, std::uint64_t seed);
 Case mesh(const Precision& precision, std::uint64_t seed);
 Case cut_mesh(const Precision& precision, std::uint64_t seed);
+Case far_fan(const Precision& precision, std::uint64_t seed);
 
 Case permuted(const Precision& precision, std::uint64_t seed);
 Case translated(const Precision& precision, std::uint64_t seed);
 
+Case beyond_band(const Precision& precision, std::uint64_t seed);
 Case extreme_w(const Precision& precision, std::uint64_t seed);
 Case not_finite(const Precision& precision, std::uint64_t seed);
 Case grazer(const Precision& precision, std::uint64_t seed);

@@ -10,6 +10,63 @@
 #include "halfspace/stress/homogeneous_oracle.hpp"
 
 namespace halfspace::stress {
+namespace {
+
+/// Counts the samples of a square target that clip-space triangles cover, where no rounding can decide.
+class CertainCounts {
+ public:
+  CertainCounts(std::uint32_t size, const Precision& precision)
+      : size_(size), sub_pixel_bits_(precision.sub_pixel_bits), counts_(std::size_t{size} * size, 0) {}
+
+  void add(const std::array<glm::vec4, 3>& triangle) {
+    const HomogeneousTriangle exact(triangle, size_, sub_pixel_bits_);
+    for (std::uint32_t y = 0; y < size_; ++y) {
+      for (std::uint32_t x = 0; x < size_; ++x) {
+        std::int32_t& count = counts_[std::size_t{y} * size_ + x];
+        const Certainty certainty = exact.covers(x, y);
+        if (certainty == Certainty::kUncertain) {
+          count = kUncertain;
+        } else if (count != kUncertain) {
+          count += certainty == Certainty::kInside ? 1 : 0;
+        }
+      }
+    }
+  }
+
+  std::vector<std::int32_t> take() { return std::move(counts_); }
+
+ private:
+  std::uint32_t size_;
+  int sub_pixel_bits_;
+  std::vector<std::int32_t> counts_;
+};
+
+}  // namespace
+
+Case beyond_band(const Precision& precision, std::uint64_t seed) {
+  constexpr std::uint32_t kSize = 16;
+  DrawList list(precision, kSize, seed);
+  list.draw();
+  const auto real = [&](double low, double high) { return list.random.real(low, high); };
+  CertainCounts counts(kSize, precision);
+  for (int n = 0; n < 12; ++n) {
+    std::array<glm::vec4, 3> triangle{};
+    // From a point of the target far along a line that crosses it; the guard band ends at 2^12 of the clip
+    // volume here.
+    const glm::dvec2 crossed{real(-1, 1), real(-1, 1)};
+    for (glm::vec4& v : triangle) {
+      const glm::dvec2 direction{real(-1, 1), real(-1, 1)};
+      const double reach = list.one_in(3) ? 1 : std::ldexp(1.0, static_cast<int>(list.between(10, 40)));
+      const double w = std::ldexp(real(0.5, 1), static_cast<int>(list.between(-4, 4)));
+      v = glm::dvec4((crossed + direction * reach) * w, real(0.1, 0.9) * w, w);
+    }
+    list.add_clip(triangle);
+    counts.add(triangle);
+  }
+  Case made{.frame = list.take_frame()};
+  made.fragments = counts.take();
+  return made;
+}
 
 Case extreme_w(const Precision& precision, std::uint64_t seed) {
   constexpr std::uint32_t kSize = 16;
@@ -19,7 +76,7 @@ Case extreme_w(const Precision& precision, std::uint64_t seed) {
   constexpr int kApart = 40;
   const auto sign = [&] { return list.one_in(2) ? 1.0F : -1.0F; };
   const auto real = [&] { return static_cast<float>(list.random.real(0.5, 1)); };
-  std::vector<std::int32_t> counts(kSize * kSize, 0);
+  CertainCounts counts(kSize, precision);
   for (int n = 0; n < 12; ++n) {
     // All of a triangle on a scale of its own: huge, denormal.
     const int scale = static_cast<int>(list.one_in(2) ? list.between(-146, 80) : list.between(-4, 4));
@@ -51,21 +108,10 @@ Case extreme_w(const Precision& precision, std::uint64_t seed) {
       }
     }
     list.add_clip(triangle);
-    const HomogeneousTriangle exact(triangle, kSize, precision.sub_pixel_bits);
-    for (std::uint32_t y = 0; y < kSize; ++y) {
-      for (std::uint32_t x = 0; x < kSize; ++x) {
-        std::int32_t& count = counts[y * kSize + x];
-        const Certainty certainty = exact.covers(x, y);
-        if (certainty == Certainty::kUncertain) {
-          count = kUncertain;
-        } else if (count != kUncertain) {
-          count += certainty == Certainty::kInside ? 1 : 0;
-        }
-      }
-    }
+    counts.add(triangle);
   }
   Case made{.frame = list.take_frame()};
-  made.fragments = std::move(counts);
+  made.fragments = counts.take();
   return made;
 }
 

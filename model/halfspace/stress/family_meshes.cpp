@@ -144,6 +144,46 @@ Seen see(const ClipPlane& plane, double x, double y) {
 
 }  // namespace
 
+Case far_fan(const Precision& precision, std::uint64_t seed) {
+  constexpr std::uint32_t kSize = 32;
+  constexpr double kTurn = 6.283185307179586;
+  DrawList list(precision, kSize, seed);
+  list.draw();
+  const auto vertex = [&](double x, double y) {
+    const double w = std::ldexp(list.random.real(0.5, 1), static_cast<int>(list.between(-4, 4)));
+    return glm::vec4(glm::dvec4(x, y, list.random.real(0.1, 0.9), 1) * w);
+  };
+  const GridPoint middle =
+      list.one_in(2) ? list.centre(list.between(0, 31), list.between(0, 31)) : list.point_on_target();
+  const double scale = 2.0 / static_cast<double>(list.extent());
+  const glm::dvec2 hub{static_cast<double>(middle.x) * scale - 1, static_cast<double>(middle.y) * scale - 1};
+  // A quarter of a turn at most from one arm to the next, each far longer than the target is wide, so that
+  // the fan holds all of it.
+  const std::int64_t arms = list.between(8, 24);
+  const int nearest = static_cast<int>(list.between(3, 16));
+  std::vector<glm::vec4> rim;
+  for (std::int64_t i = 0; i < arms; ++i) {
+    const double angle =
+        kTurn * (static_cast<double>(i) + list.random.real(0, 0.9)) / static_cast<double>(arms);
+    const double reach =
+        std::ldexp(1.0, list.one_in(2) ? nearest : static_cast<int>(list.between(nearest, 40)));
+    rim.push_back(vertex(hub.x + std::cos(angle) * reach, hub.y + std::sin(angle) * reach));
+  }
+  const glm::vec4 centre = vertex(hub.x, hub.y);
+  std::vector<std::array<glm::vec4, 3>> triangles;
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    triangles.push_back({centre, rim[i], rim[(i + 1) % rim.size()]});
+  }
+  list.shuffle(triangles);
+  for (auto& triangle : triangles) {
+    list.shuffle(triangle);
+    list.add_clip(triangle);
+  }
+  Case made{.frame = list.take_frame()};
+  made.fragments.assign(kSize * kSize, 1);
+  return made;
+}
+
 Case cut_mesh(const Precision& precision, std::uint64_t seed) {
   constexpr std::uint32_t kSize = 32;
   DrawList list(precision, kSize, seed);

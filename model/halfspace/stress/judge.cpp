@@ -52,8 +52,10 @@ void count(std::int32_t expected, std::uint32_t got, Tally& tally) {
   (more > 0 ? tally.extra : tally.missing) += static_cast<std::uint64_t>(std::abs(more));
 }
 
-void judge_depth(const Case& made, const Precision& precision, const DepthLaw& law,
-                 const Definition& definition, const Picture& picture, Tally& tally) {
+/// Calls visit(pixel, error, bound) for each depth that the definition knows.
+template <class Visit>
+void each_depth(const Case& made, const Precision& precision, const DepthLaw& law,
+                const Definition& definition, const Picture& picture, const Visit& visit) {
   std::map<std::uint32_t, ExactPlane> planes;
   for (std::uint32_t at = 0; at < picture.codes.size(); ++at) {
     const std::uint32_t last = definition.last[at];
@@ -71,12 +73,20 @@ void judge_depth(const Case& made, const Precision& precision, const DepthLaw& l
     const ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at]);
     const double bound =
         law.bound ? *law.bound : depth_bound(precision.format, law.interpolator, triangle.z, plane, error);
-    ++tally.depths;
-    tally.worst_ulps = std::max(tally.worst_ulps, error.ulps);
-    tally.worst_share = std::max(tally.worst_share, error.ulps / bound);
-    tally.inexact += error.ulps > bound ? 1 : 0;
-    tally.out_of_range += error.beyond > bound ? 1 : 0;
+    visit(at, error, bound);
   }
+}
+
+void judge_depth(const Case& made, const Precision& precision, const DepthLaw& law,
+                 const Definition& definition, const Picture& picture, Tally& tally) {
+  each_depth(made, precision, law, definition, picture,
+             [&](std::size_t /*at*/, const ExactPlane::Error& error, double bound) {
+               ++tally.depths;
+               tally.worst_ulps = std::max(tally.worst_ulps, error.ulps);
+               tally.worst_share = std::max(tally.worst_share, error.ulps / bound);
+               tally.inexact += error.ulps > bound ? 1 : 0;
+               tally.out_of_range += error.beyond > bound ? 1 : 0;
+             });
 }
 
 /// Rejected: no sample of the tile is covered. Accepted: all of them are.
@@ -129,6 +139,18 @@ std::vector<std::int32_t> expected_fragments(const Case& made, const Precision& 
     return define(made, precision).fragments;
   }
   return made.fragments;
+}
+
+std::vector<double> depth_shares(const Case& made, const Precision& precision, const DepthLaw& law,
+                                 const Picture& picture) {
+  std::vector<double> shares(picture.codes.size(), kNotJudged);
+  if (made.depth) {
+    each_depth(made, precision, law, define(made, precision), picture,
+               [&](std::size_t at, const ExactPlane::Error& error, double bound) {
+                 shares[at] = error.ulps / bound;
+               });
+  }
+  return shares;
 }
 
 Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, const Picture& picture,

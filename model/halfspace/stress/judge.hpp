@@ -22,6 +22,12 @@ struct DepthLaw {
 Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, const Picture& picture,
             const Picture* twin);
 
+inline constexpr double kNotJudged = -1;
+
+/// How far each pixel's depth is off, as a share of its bound, row by row, or kNotJudged.
+std::vector<double> depth_shares(const Case& made, const Precision& precision, const DepthLaw& law,
+                                 const Picture& picture);
+
 /// Fragments that each pixel ought to have, row by row, or kUncertain.
 std::vector<std::int32_t> expected_fragments(const Case& made, const Precision& precision);
 
