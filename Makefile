@@ -87,6 +87,10 @@ bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and l
 bench-literature: release-program ## Measure what published mechanisms save on our frames; write docs/guides/literature.md's tables.
 	tools/write_literature.py --captured $(CAPTURED)
 
+.PHONY: stress-reports
+stress-reports: release-program ## Draw the scenes of public reports with rasterizers that fail; write docs/guides/stress.md's table.
+	tools/write_robustness.py stress-reports
+
 .PHONY: bench-profile
 bench-profile: build/release/build.ninja ## Sample where the fast core spends its time, with perf; write docs/guides/speed.md's table.
 	cmake --preset profile --log-level=WARNING

@@ -44,6 +44,29 @@ TEST_CASE("stress: the units, other machines and SystemC break no law") {
   }
 }
 
+TEST_CASE("stress: scenes of public reports break no law on any engine, and are sharp") {
+  const Place place;
+  for (const char* options :
+       {"--cases 64", "--cases 64 --core readable",
+        "--cases 16 --core readable --set raster.sub_pixel_bits=4 --depth unorm16",
+        "--cases 16 --depth float32 --set depth.interpolator=barycentric",
+        "--cases 16 --fidelity recurrence --set hi_z.enabled=true", "--cases 2 --fidelity systemc"}) {
+    const Outcome outcome = place.run(std::string("stress --reports ") + options);
+    CAPTURE(options, outcome.out, outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.find("**0 errors**") != std::string::npos);
+    CHECK(outcome.out.find("| floor_decal |") != std::string::npos);
+    CHECK(outcome.out.find("| sliver |") == std::string::npos);
+  }
+  const Outcome sharp = place.run("stress --reports --sharpness --cases 16 --depth-bound 1");
+  CAPTURE(sharp.out);
+  CHECK(sharp.status == 0);
+  CHECK(sharp.out.find("[DRTK #9](https://github.com/facebookresearch/DRTK/issues/9)") != std::string::npos);
+  const std::string out = (place.path / "scenes").string();
+  REQUIRE(place.run("stress --reports --cases 1 --write " + out).status == 0);
+  CHECK(place.run("run " + out + "/odd_scissor-1-0.ptf").status == 0);
+}
+
 TEST_CASE("stress: a wrong rasterizer leaves frames and pictures to look at") {
   const Place place;
   const std::string out = (place.path / "campaign").string();
@@ -95,7 +118,7 @@ TEST_CASE("stress: bad options") {
   for (const char* options :
        {"--samples 0", "--cases 0", "--exhaustive --out x", "--sharpness --engine reference:exact",
         "--exhaustive-units --fidelity rtl", "--engine reference:exact --fidelity systemc",
-        "--write x --sharpness", "--depth-bound 0"}) {
+        "--write x --sharpness", "--depth-bound 0", "--reports --family mesh", "--reports --exhaustive"}) {
     CAPTURE(options);
     const Outcome outcome = place.run(std::string("stress ") + options);
     CHECK(outcome.status != 0);

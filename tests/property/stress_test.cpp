@@ -1,5 +1,6 @@
 // The families of the stress campaign, and its judge. What they say is held against a subject that is the
 // definition itself, and against subjects that break one law each.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <functional>
@@ -11,6 +12,7 @@
 #include "halfspace/stress/campaign_state.hpp"
 #include "halfspace/stress/homogeneous_oracle.hpp"
 #include "halfspace/stress/reference_picture.hpp"
+#include "halfspace/stress/reference_subject.hpp"
 #include "halfspace/stress/wrong_rasterizer.hpp"
 #include "random.hpp"
 
@@ -121,6 +123,50 @@ TEST_CASE("stress: homogeneous coverage is the definition's where w is 1", "[pro
   CHECK(certain > 0);
 }
 
+TEST_CASE("stress: a scene of a report finds its suspect, and nothing in exact rasterizers", "[property]") {
+  CAPTURE(seed());
+  const auto suspect_of = [](const Family& scene) {
+    const auto& textbook = reference::methods();
+    const bool is_textbook =
+        std::ranges::any_of(textbook, [&](const auto& method) { return method.name == scene.suspect; });
+    return is_textbook ? reference_subject(scene.suspect, Precision{})
+                       : wrong_subject(wrong_rasterizer(scene.suspect), Precision{});
+  };
+  CHECK(reports().size() >= 12);
+  for (const Family& scene : reports()) {
+    CAPTURE(scene.name);
+    CHECK(scene.report.starts_with("https://"));
+    CampaignPlan plan = only(scene.name.data(), 32);
+    plan.depth.bound = 1;
+    CHECK(run(plan, *suspect_of(scene)).sum().errors() > 0);
+    for (const char* name : {"exact", "barycentric", "scanline", "incremental"}) {
+      CAPTURE(name);
+      const Tally right = run(plan, *reference_subject(name, 8)).sum();
+      CHECK(right.errors() == 0);
+      CHECK(right.samples + right.tested > 0);
+    }
+  }
+}
+
+TEST_CASE("stress: scenes of reports are the same at every precision", "[property]") {
+  CAPTURE(seed());
+  for (const int bits : {4, 6, 8}) {
+    for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32}) {
+      CampaignPlan plan{.precision = {.sub_pixel_bits = bits, .format = format},
+                        .depth = {.bound = 1},
+                        .seed = seed(),
+                        .cases = 8};
+      for (const Family& scene : reports()) {
+        plan.families.push_back(&scene);
+      }
+      for (const FamilyState& scene : run(plan, *reference_subject("exact", plan.precision)).families) {
+        CAPTURE(bits, name(format), scene.family);
+        CHECK(scene.tally.errors() == 0);
+      }
+    }
+  }
+}
+
 TEST_CASE("stress: the judge finds a picture that breaks a law", "[property]") {
   const auto errors = [](const char* family, const Textbook::Change& change) {
     Textbook wrong(change);
@@ -197,6 +243,9 @@ TEST_CASE("stress: every rasterizer that is wrong on purpose is found", "[proper
   CAPTURE(seed());
   CampaignPlan plan = plan_for(DepthFormat::kUnorm24, 8);
   plan.depth.bound = 1;
+  for (const Family& scene : reports()) {
+    plan.families.push_back(&scene);
+  }
   for (const WrongRasterizer& wrong : wrong_rasterizers()) {
     CAPTURE(wrong.name);
     CHECK(run(plan, *wrong_subject(wrong, plan.precision)).sum().errors() > 0);

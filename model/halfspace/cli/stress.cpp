@@ -5,12 +5,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/cli/stress_sharpness.hpp"
 #include "halfspace/cli/tie_rule.hpp"
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -39,6 +41,7 @@ struct StressCommand {
   std::string engine;
   std::string write;
   std::string out;
+  bool reports = false;
   bool sharpness = false;
   bool exhaustive = false;
   bool units = false;
@@ -67,12 +70,16 @@ stress::CampaignPlan plan_of(const StressCommand& command, const Config& config)
       .depth = {.interpolator = config.depth.interpolator, .bound = command.depth_bound},
       .seed = command.seed,
       .folder = command.out};
-  for (const stress::Family& family : stress::families()) {
+  const auto add = [&](std::span<const stress::Family> list, bool unasked) {
     const auto& wanted = command.families;
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), family.name) != wanted.end()) {
-      plan.families.push_back(&family);
+    for (const stress::Family& family : list) {
+      if (wanted.empty() ? unasked : std::ranges::find(wanted, family.name) != wanted.end()) {
+        plan.families.push_back(&family);
+      }
     }
-  }
+  };
+  add(stress::families(), !command.reports);
+  add(stress::reports(), command.reports);
   if (command.samples) {
     plan.samples = *command.samples;
   }
@@ -133,29 +140,6 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
   return tally.errors() == 0 ? 0 : 1;
 }
 
-/// Runs the campaign on every rasterizer that is wrong on purpose. Returns the exit status: 0 where all are
-/// found.
-int sharpness_command(const StressCommand& command, const Config& config) {
-  stress::CampaignPlan plan = plan_of(command, config);
-  plan.folder.clear();
-  bool all_found = true;
-  fmt::print("| rasterizer | what is wrong | errors | families that find it |\n|---|---|---:|---|\n");
-  for (const stress::WrongRasterizer& wrong : stress::wrong_rasterizers()) {
-    const std::unique_ptr<stress::Subject> subject = stress::wrong_subject(wrong, plan.precision);
-    const stress::CampaignState state = stress::run_campaign(plan, *subject, [](const auto&) {});
-    std::string found;
-    for (const stress::FamilyState& family : state.families) {
-      if (family.tally.errors() != 0) {
-        found += fmt::format("{}{}", found.empty() ? "" : ", ", family.family);
-      }
-    }
-    all_found &= !found.empty();
-    fmt::print("| `{}` | {} | {} | {} |\n", wrong.name, wrong.wrong, state.sum().errors(),
-               found.empty() ? "**none**" : found);
-  }
-  return all_found ? 0 : 1;
-}
-
 /// Returns the exit status.
 int stress_command(const StressCommand& command) {
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -168,7 +152,9 @@ int stress_command(const StressCommand& command) {
     return exhaustive_command(command, fidelity, config, options);
   }
   if (command.sharpness) {
-    return sharpness_command(command, config);
+    stress::CampaignPlan plan = plan_of(command, config);
+    plan.folder.clear();
+    return command.reports ? print_report_sharpness(plan) : print_sharpness(plan);
   }
   const stress::CampaignPlan plan = plan_of(command, config);
   if (!command.write.empty()) {
@@ -234,12 +220,21 @@ void add_stress_command(CLI::App& app, int& status) {
       ->check(CLI::Range(0.001, 1e6));
   options->rtl.add_to(*command);
   std::vector<std::string> names;
-  for (const stress::Family& family : stress::families()) {
-    names.emplace_back(family.name);
+  for (const std::span<const stress::Family> list : {stress::families(), stress::reports()}) {
+    for (const stress::Family& family : list) {
+      names.emplace_back(family.name);
+    }
   }
-  command->add_option("--family", options->families, "families of cases (default: all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(names));
+  CLI::Option* family = command
+                            ->add_option("--family", options->families,
+                                         "families of cases, or scenes of --reports (default: all families)")
+                            ->delimiter(',')
+                            ->check(CLI::IsMember(names));
+  CLI::Option* reports =
+      command
+          ->add_flag("--reports", options->reports,
+                     "scenes from public reports of seams and holes instead of the families")
+          ->excludes(family);
   command->add_option("--depth", options->depth, "depth format")
       ->check(CLI::IsMember({"unorm16", "unorm24", "float32"}))
       ->capture_default_str();
@@ -272,6 +267,7 @@ void add_stress_command(CLI::App& app, int& status) {
     }
   }
   units->excludes(write)->excludes(sharpness);
+  reports->excludes(exhaustive)->excludes(units);
   write->excludes(sharpness);
   command->add_option("--every", options->every, "of --exhaustive: of the least vertices only one of so many")
       ->check(CLI::Range(1U, stress::kGridPoints))

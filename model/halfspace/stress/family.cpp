@@ -46,11 +46,13 @@ std::span<const Family> families() { return kFamilies; }
 
 const Family& family_of(std::string_view name) {
   std::string names;
-  for (const Family& family : kFamilies) {
-    if (family.name == name) {
-      return family;
+  for (const std::span<const Family> list : {families(), reports()}) {
+    for (const Family& family : list) {
+      if (family.name == name) {
+        return family;
+      }
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", family.name);
     }
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", family.name);
   }
   throw InputError(fmt::format("family is '{}'; it must be one of {}", name, names));
 }

@@ -15,10 +15,15 @@ struct Family {
   std::string_view looks;  ///< of its triangles, for people
   std::string_view law;
   Case (*make)(const Precision& precision, std::uint64_t seed);
+  std::string_view report = {};   ///< address of the public report that a scene comes from
+  std::string_view suspect = {};  ///< the rasterizer, wrong or textbook, that does what is reported there
 };
 
-/// All of them.
+/// Those of the campaign.
 std::span<const Family> families();
+
+/// Small scenes from public reports of seams and holes. A seed varies what a report leaves open.
+std::span<const Family> reports();
 
 /// Throws InputError, with the legal names.
 const Family& family_of(std::string_view name);

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/matrix.hpp>
 #include <vector>
 
+#include "halfspace/stress/clip_plane.hpp"
 #include "halfspace/stress/draw_list.hpp"
 #include "halfspace/stress/family.hpp"
+#include "halfspace/stress/grid_mesh.hpp"
 
 namespace halfspace::stress {
 namespace {
@@ -114,36 +115,6 @@ Case mesh(const Precision& precision, std::uint64_t seed) {
   return made;
 }
 
-namespace {
-
-/// A plane in clip space, by the clip coordinates of three points of it.
-struct ClipPlane {
-  glm::dvec4 at;  ///< (u, v) = (0, 0)
-  glm::dvec4 along_u;
-  glm::dvec4 along_v;
-
-  [[nodiscard]] glm::dvec4 point(double u, double v) const { return at + u * along_u + v * along_v; }
-};
-
-/// What of the plane is at a position of the screen: its point with x = X w and y = Y w, up to a factor.
-struct Seen {
-  double u;
-  double v;
-  double w;  ///< 0 or less: behind the eye
-  double z;
-};
-
-Seen see(const ClipPlane& plane, double x, double y) {
-  // (x - X w) and (y - Y w) of at + u along_u + v along_v are 0.
-  const auto left = [&](const glm::dvec4& p) { return glm::dvec2(p.x - x * p.w, p.y - y * p.w); };
-  const glm::dmat2 matrix(left(plane.along_u), left(plane.along_v));
-  const glm::dvec2 uv = glm::inverse(matrix) * -left(plane.at);
-  const glm::dvec4 point = plane.point(uv.x, uv.y);
-  return {uv.x, uv.y, point.w, point.z / point.w};
-}
-
-}  // namespace
-
 Case far_fan(const Precision& precision, std::uint64_t seed) {
   constexpr std::uint32_t kSize = 32;
   constexpr double kTurn = 6.283185307179586;
@@ -201,7 +172,6 @@ Case cut_mesh(const Precision& precision, std::uint64_t seed) {
     plane.along_v.w = 0;
   }
   const std::int64_t cells = list.between(2, 16);
-  const std::int64_t row = cells + 1;
   std::vector<glm::vec4> corners;
   for (std::int64_t j = 0; j <= cells; ++j) {
     for (std::int64_t i = 0; i <= cells; ++i) {
@@ -210,50 +180,12 @@ Case cut_mesh(const Precision& precision, std::uint64_t seed) {
                                        (static_cast<double>(j) + real(-0.2, 0.2)) * scale - 2));
     }
   }
-  std::vector<std::array<glm::vec4, 3>> triangles;
-  for (std::int64_t j = 0; j < cells; ++j) {
-    for (std::int64_t i = 0; i < cells; ++i) {
-      const glm::vec4* top = &corners[static_cast<std::size_t>(j * row + i)];
-      const glm::vec4* bottom = top + row;
-      if (list.one_in(2)) {
-        triangles.push_back({top[0], top[1], bottom[0]});
-        triangles.push_back({top[1], bottom[1], bottom[0]});
-      } else {
-        triangles.push_back({top[0], top[1], bottom[1]});
-        triangles.push_back({top[0], bottom[1], bottom[0]});
-      }
-    }
-  }
-  list.shuffle(triangles);
-  for (auto& triangle : triangles) {
-    list.shuffle(triangle);
+  for (const auto& triangle : grid_mesh(list, corners, cells + 1)) {
     list.add_clip(triangle);
   }
   Case made{.frame = list.take_frame()};
-  made.fragments.assign(kSize * kSize, kUncertain);
-  for (std::uint32_t y = 0; y < kSize; ++y) {
-    for (std::uint32_t x = 0; x < kSize; ++x) {
-      bool inside = true;
-      bool outside = true;
-      // The nearest pixels decide alike: no border of the mesh or of the clip volume is near.
-      for (const double dy : {-1.0, 0.0, 1.0}) {
-        for (const double dx : {-1.0, 0.0, 1.0}) {
-          const Seen seen = see(plane, (x + 0.5 + dx) * 2 / kSize - 1, (y + 0.5 + dy) * 2 / kSize - 1);
-          const double least = 2 - 4.0 / static_cast<double>(cells);  // borders are jittered
-          const bool in = seen.w > 1e-3 && seen.z > 1e-4 && seen.z < 1 - 1e-4 && std::abs(seen.u) < least &&
-                          std::abs(seen.v) < least;
-          const bool out = seen.w < -1e-3 || seen.z < -1e-4 || seen.z > 1 + 1e-4 ||
-                           std::abs(seen.u) > 2 + 2.0 / static_cast<double>(cells) ||
-                           std::abs(seen.v) > 2 + 2.0 / static_cast<double>(cells);
-          inside &= in;
-          outside &= out;
-        }
-      }
-      if (inside || outside) {
-        made.fragments[y * kSize + x] = inside ? 1 : 0;
-      }
-    }
-  }
+  const double edge = 2.0 / static_cast<double>(cells);  // borders are jittered
+  made.fragments = fragments_of(plane, 2 - 2 * edge, 2 + edge, kSize);
   return made;
 }
 

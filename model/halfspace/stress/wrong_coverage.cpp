@@ -296,4 +296,37 @@ void widens_slivers(const Piece& piece, Fragments& fragments) {
   });
 }
 
+void no_prestep(const Piece& piece, Fragments& fragments) {
+  const GridTriangle& t = piece.grid;
+  for (std::int64_t y = piece.bounds.first_y; y < piece.bounds.end_y; ++y) {
+    std::vector<double> crossings;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [top, bottom] =
+          std::minmax(t[i], t[(i + 1) % 3], [](const GridPoint& a, const GridPoint& b) { return a.y < b.y; });
+      const std::int64_t first = top.y >> piece.subpixel_bits;
+      if (y >= first && y < bottom.y >> piece.subpixel_bits) {
+        // At the whole row the edge is taken to be where its upper end is.
+        const double slope = static_cast<double>(bottom.x - top.x) / static_cast<double>(bottom.y - top.y);
+        crossings.push_back(pixels(piece, top.x) + slope * static_cast<double>(y - first));
+      }
+    }
+    if (crossings.size() == 2) {
+      const auto [left, right] = std::minmax(crossings[0], crossings[1]);
+      for (std::int64_t x = piece.bounds.first_x; x < piece.bounds.end_x; ++x) {
+        const double centre = static_cast<double>(x) + 0.5;
+        if (centre >= left && centre < right) {
+          add(piece, x, y, fragments);
+        }
+      }
+    }
+  }
+}
+
+void unsigned_box(const Piece& piece, Fragments& fragments) {
+  const GridTriangle& t = piece.grid;
+  if (std::all_of(t.begin(), t.end(), [](const GridPoint& p) { return p.x >= 0 && p.y >= 0; })) {
+    in_box(piece, piece.bounds, fragments);
+  }
+}
+
 }  // namespace halfspace::stress::wrong

@@ -30,5 +30,7 @@ void hasty_accept(const reference::Piece& piece, Fragments& fragments);
 void saturates_to_16_bits(const reference::Piece& piece, Fragments& fragments);
 void cuts_steps(const reference::Piece& piece, Fragments& fragments);
 void widens_slivers(const reference::Piece& piece, Fragments& fragments);
+void no_prestep(const reference::Piece& piece, Fragments& fragments);
+void unsigned_box(const reference::Piece& piece, Fragments& fragments);
 
 }  // namespace halfspace::stress::wrong

@@ -63,11 +63,65 @@ DrawnTriangle divides_by_magnitude(const ClipTriangle& triangle, const DrawState
   return right(turned, state);
 }
 
-/// Cuts each edge as it comes, in float32 by a parameter, so that neighbours disagree.
 DrawnTriangle draws_first_piece(const ClipTriangle& triangle, const DrawState& state) {
   DrawnTriangle drawn = right(triangle, state);
   drawn.pieces.resize(std::min<std::size_t>(drawn.pieces.size(), 1));
   return drawn;
+}
+
+/// Cuts each edge as it comes, in float32 by a parameter, so that neighbours disagree.
+reference::Polygon cut_in_float(const reference::Polygon& polygon, const Homogeneous& plane) {
+  const auto distance = [&](const reference::Corner& v) {
+    return static_cast<float>(plane.x * v.x + plane.y * v.y + plane.z * v.z + plane.w * v.w);
+  };
+  reference::Polygon left;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const reference::Corner& from = polygon[i];
+    const reference::Corner& to = polygon[(i + 1) % polygon.size()];
+    const float inside = distance(from);
+    const float then = distance(to);
+    if (inside >= 0) {
+      left.push_back(from);
+    }
+    if ((inside >= 0) != (then >= 0)) {
+      const float t = inside / (inside - then);
+      const auto between = [t](double a, double b) {
+        return static_cast<float>(a) + t * (static_cast<float>(b) - static_cast<float>(a));
+      };
+      reference::Corner cut;
+      cut.x = between(from.x, to.x);
+      cut.y = between(from.y, to.y);
+      cut.z = between(from.z, to.z);
+      cut.w = between(from.w, to.w);
+      left.push_back(cut);
+    }
+  }
+  return left;
+}
+
+DrawnTriangle cuts_in_float(const ClipTriangle& triangle, const DrawState& state) {
+  reference::Polygon polygon(triangle.begin(), triangle.end());
+  for (const Homogeneous& plane : reference::guard_band(state)) {
+    polygon = cut_in_float(polygon, plane);
+  }
+  DrawnTriangle drawn;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const DrawnTriangle part = reference::draw_clipped({polygon[0], polygon[i], polygon[i + 1]}, state, {},
+                                                       reference::cover_barycentrically);
+    drawn.fate = std::max(drawn.fate, part.fate);
+    drawn.pieces.insert(drawn.pieces.end(), part.pieces.begin(), part.pieces.end());
+  }
+  return drawn;
+}
+
+/// Discards what is on the far side of a border of the screen, by vertices that were divided by any w.
+DrawnTriangle discards_by_division(const ClipTriangle& triangle, const DrawState& state) {
+  const auto all = [&](const auto& beyond) { return std::all_of(triangle.begin(), triangle.end(), beyond); };
+  const bool discarded = all([](const reference::Corner& v) { return v.x / v.w < -1; }) ||
+                         all([](const reference::Corner& v) { return v.x / v.w > 1; }) ||
+                         all([](const reference::Corner& v) { return v.y / v.w < -1; }) ||
+                         all([](const reference::Corner& v) { return v.y / v.w > 1; });
+  return discarded ? DrawnTriangle{} : right(triangle, state);
 }
 
 // Depth.
@@ -146,6 +200,21 @@ void always_writes(Command& command) { command.flags |= bits({Flag::kDepthWrite}
 void no_slope(Command& command) { command.offset_factor = 0; }
 void no_offset_clamp(Command& command) { command.offset_clamp = 0; }
 
+/// Blocks of 2x2 pixels are inside or outside as a whole.
+void even_scissor(Command& command) {
+  Scissor& scissor = command.scissor;
+  const std::int32_t right = (scissor.x + scissor.width + 1) & ~1;
+  const std::int32_t bottom = (scissor.y + scissor.height + 1) & ~1;
+  scissor.x &= ~1;
+  scissor.y &= ~1;
+  scissor.width = right - scissor.x;
+  scissor.height = bottom - scissor.y;
+}
+
+void faces_before_viewport(Command& command) {
+  command.flags ^= command.viewport.w < 0 ? bits({Flag::kFrontPositiveArea}) : 0;
+}
+
 void zero_for_nan(Frame& frame) {
   for (glm::vec4& v : frame.vertices) {
     for (int i = 0; i < 4; ++i) {
@@ -194,11 +263,17 @@ constexpr std::array kWrong{
     WrongRasterizer{"saturates_to_16_bits", "edges saturated to 16 bits at the tile's origin", draw<wrong::saturates_to_16_bits>},
     WrongRasterizer{"cuts_steps", "A and B without their lowest bit", draw<wrong::cuts_steps>},
     WrongRasterizer{"widens_slivers", "half a sub-pixel more on all sides", draw<wrong::widens_slivers>},
+    WrongRasterizer{"no_prestep", "edges begin at a whole row, not at the sample below their end", draw<wrong::no_prestep>},
+    WrongRasterizer{"unsigned_box", "nothing with a vertex left of the target or above it", draw<wrong::unsigned_box>},
+    WrongRasterizer{"even_scissor", "scissors grown to blocks of 2x2 pixels", right, each_draw<even_scissor>},
+    WrongRasterizer{"faces_before_viewport", "faces by their area before the viewport turns them over", right, each_draw<faces_before_viewport>},
     WrongRasterizer{"no_near_plane", "not clipped at the near plane", without_plane<0>},
     WrongRasterizer{"no_far_plane", "not clipped at the far plane", without_plane<1>},
     WrongRasterizer{"drops_cut", "nothing of a triangle that a depth plane cuts", drops_cut},
     WrongRasterizer{"divides_by_magnitude", "the magnitude of w for w", divides_by_magnitude},
     WrongRasterizer{"draws_first_piece", "the first piece only of what clipping leaves", draws_first_piece},
+    WrongRasterizer{"cuts_in_float", "cuts of float32, from the end of an edge that comes first", cuts_in_float},
+    WrongRasterizer{"discards_by_division", "nothing that lies beyond a border of the screen by x / w and y / w, w of any sign", discards_by_division},
     WrongRasterizer{"zero_for_nan", "0 for NaN and infinities", right, zero_for_nan},
     WrongRasterizer{"depth_at_corner", "depth at the corner of the pixel", draw<with_depth<depth_at_corner>>},
     WrongRasterizer{"depth_of_float_plane", "float32 gradients from a vertex", draw<with_depth<depth_of_float_plane>>},
