@@ -141,7 +141,7 @@ TEST_CASE("stress: a scene of a report finds its suspect, and nothing in exact r
     CHECK(run(plan, *suspect_of(scene)).sum().errors() > 0);
     for (const char* name : {"exact", "barycentric", "scanline", "incremental"}) {
       CAPTURE(name);
-      const Tally right = run(plan, *reference_subject(name, 8)).sum();
+      const Tally right = run(plan, *reference_subject(name, plan.precision)).sum();
       CHECK(right.errors() == 0);
       CHECK(right.samples + right.tested > 0);
     }
