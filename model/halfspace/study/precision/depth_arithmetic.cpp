@@ -81,8 +81,8 @@ std::uint32_t DoublePlane::code(std::int64_t x, std::int64_t y) const {
                                  static_cast<reference::Storage>(format_));
 }
 
-WordPlane::WordPlane(const DepthTriangle& t, DepthFormat format, int bits)
-    : format_(format), bits_(bits), from_{t.v[0].x, t.v[0].y} {
+WordPlane::WordPlane(const DepthTriangle& t, DepthFormat format, int bits) : format_(format), bits_(bits) {
+  eq_.from = {t.v[0].x, t.v[0].y};
   std::array<std::int64_t, 3> word{};
   std::array<std::uint32_t, 3> stored{};
   if (is_float(format)) {
@@ -99,13 +99,13 @@ WordPlane::WordPlane(const DepthTriangle& t, DepthFormat format, int bits)
       stored[i] = static_cast<std::uint32_t>(rounded(word[i], bits - unorm_bits(format)));
     }
   }
-  range_ = range_of(stored);
-  z_ = word[0];
+  eq_.range = range_of(stored);
+  eq_.z = word[0];
   const Int128 rise1 = Int128{word[1]} - word[0];
   const Int128 rise2 = Int128{word[2]} - word[0];
   constexpr Int128 kOne = Int128{1} << kGradientFraction;
-  dx_ = static_cast<Modular>((rise1 * t.a(1) + rise2 * t.a(2)) * kOne / t.area2);
-  dy_ = static_cast<Modular>((rise1 * t.b(1) + rise2 * t.b(2)) * kOne / t.area2);
+  eq_.dx = static_cast<Modular>((rise1 * t.a(1) + rise2 * t.a(2)) * kOne / t.area2);
+  eq_.dy = static_cast<Modular>((rise1 * t.b(1) + rise2 * t.b(2)) * kOne / t.area2);
 }
 
 std::uint32_t WordPlane::code(std::int64_t x, std::int64_t y) const {
@@ -115,19 +115,19 @@ std::uint32_t WordPlane::code(std::int64_t x, std::int64_t y) const {
   const auto from_vertex = [](std::int64_t pixel, std::int64_t vertex) {
     return static_cast<Modular>(centre(pixel / kAnchorSize * kAnchorSize) - vertex);
   };
-  const Modular anchor = (static_cast<Modular>(z_) << kGradientFraction) + dx_ * from_vertex(x, from_[0]) +
-                         dy_ * from_vertex(y, from_[1]);
+  const Modular anchor = (static_cast<Modular>(eq_.z) << kGradientFraction) +
+                         eq_.dx * from_vertex(x, eq_.from[0]) + eq_.dy * from_vertex(y, eq_.from[1]);
   const Modular sum =
       nearest(anchor, kGradientFraction) +
-      nearest(dx_, kGradientFraction - kSubPixelBits) * static_cast<Modular>(x % kAnchorSize) +
-      nearest(dy_, kGradientFraction - kSubPixelBits) * static_cast<Modular>(y % kAnchorSize);
+      nearest(eq_.dx, kGradientFraction - kSubPixelBits) * static_cast<Modular>(x % kAnchorSize) +
+      nearest(eq_.dy, kGradientFraction - kSubPixelBits) * static_cast<Modular>(y % kAnchorSize);
   // The low bits, with a sign: a word.
   const int above = 63 - bits_;
   const std::int64_t word = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum) << above) >> above;
   if (!is_float(format_)) {
-    return within(range_, rounded(word, bits_ - unorm_bits(format_)));
+    return within(eq_.range, rounded(word, bits_ - unorm_bits(format_)));
   }
-  return within(range_, word <= 0 ? 0 : float_bits(static_cast<std::uint64_t>(word), exponent_ - bits_));
+  return within(eq_.range, word <= 0 ? 0 : float_bits(static_cast<std::uint64_t>(word), exponent_ - bits_));
 }
 
 Barycentric::Barycentric(const DepthTriangle& t, DepthFormat format, int width)
@@ -142,11 +142,6 @@ Barycentric::Barycentric(const DepthTriangle& t, DepthFormat format, int width)
     stored[i] = stored_code(format, z_[i]);
   }
   range_ = range_of(stored);
-}
-
-/// On the scale on which twice the area has `width` bits.
-Int128 Barycentric::scaled(std::int64_t e) const {
-  return shift_ >= 0 ? Int128{e} >> shift_ : Int128{e} << -shift_;
 }
 
 std::uint32_t Barycentric::code(std::int64_t x, std::int64_t y) const {

@@ -15,8 +15,8 @@ namespace halfspace::study {
 
 /// A range of stored codes.
 struct CodeRange {
-  std::uint32_t least;
-  std::uint32_t most;
+  std::uint32_t least = 0;
+  std::uint32_t most = 0;
 };
 
 /// The plane through the vertices, in float32 from the gradients to the code. Codes are kept in [0, 1] only.
@@ -53,15 +53,21 @@ class WordPlane {
   WordPlane(const DepthTriangle& t, DepthFormat format, int bits);
   [[nodiscard]] std::uint32_t code(std::int64_t x, std::int64_t y) const;
 
+  /// What samples are computed from.
+  struct Equation {
+    std::array<std::int64_t, 2> from{};  ///< vertex 0, in sub-pixels
+    std::int64_t z = 0;                  ///< its word
+    Modular dx = 0;                      ///< for a sub-pixel, kGradientFraction bits below the word
+    Modular dy = 0;
+    CodeRange range{};
+  };
+  [[nodiscard]] const Equation& equation() const { return eq_; }
+
  private:
   DepthFormat format_;
   int bits_;
   int exponent_ = 0;
-  std::array<std::int64_t, 2> from_;  ///< vertex 0
-  std::int64_t z_;
-  Modular dx_;  ///< for a sub-pixel, kGradientFraction bits below the word
-  Modular dy_;
-  CodeRange range_;
+  Equation eq_;
 };
 
 /// Weights of the vertices by one reciprocal of the area, as the unit depth_barycentric has it, for any width
@@ -72,8 +78,15 @@ class Barycentric {
   Barycentric(const DepthTriangle& t, DepthFormat format, int width);
   [[nodiscard]] std::uint32_t code(std::int64_t x, std::int64_t y) const;
 
+  /// On the scale on which twice the area has `width` bits.
+  [[nodiscard]] Int128 scaled(std::int64_t e) const {
+    return shift_ >= 0 ? Int128{e} >> shift_ : Int128{e} << -shift_;
+  }
+  [[nodiscard]] Int128 reciprocal() const { return reciprocal_; }
+  [[nodiscard]] const std::array<std::int64_t, 3>& z() const { return z_; }
+  [[nodiscard]] const CodeRange& range() const { return range_; }
+
  private:
-  [[nodiscard]] Int128 scaled(std::int64_t e) const;
   [[nodiscard]] std::uint32_t unorm(const std::array<std::int64_t, 3>& e) const;
   [[nodiscard]] std::uint32_t float32(const std::array<std::int64_t, 3>& e) const;
 
