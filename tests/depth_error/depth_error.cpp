@@ -11,9 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "families.hpp"
+#include "../frames.hpp"
 #include "halfspace/scene/front_end.hpp"
 #include "halfspace/stress/depth_bound.hpp"
+#include "halfspace/stress/depth_families.hpp"
 #include "halfspace/stress/exact_plane.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/z_test.hpp"
@@ -21,6 +22,9 @@
 namespace halfspace::testing {
 namespace {
 
+using stress::DepthFamily;
+using stress::DepthFamilySource;
+using stress::DepthSample;
 using stress::ExactPlane;
 
 constexpr int kTile = 16;  // all sizes of tiles have the same depths
@@ -40,7 +44,7 @@ struct Method {
 /// Draws of one family on one target, and what their fragments' depths are off.
 class Measurement {
  public:
-  Measurement(const Method& method, Family family, int size, std::uint64_t seed)
+  Measurement(const Method& method, DepthFamily family, int size, std::uint64_t seed)
       : method_(method),
         source_(family, size, seed),
         size_(size),
@@ -54,7 +58,7 @@ class Measurement {
 
   void run(std::uint64_t samples, Worst& worst) {
     for (const std::uint64_t end = worst.samples + samples; worst.samples < end;) {
-      const Sample sample = source_.next();
+      const DepthSample sample = source_.next();
       const ExactPlane plane(sample.grid(), sample.z, sample.state, method_.format, 8);
       if (plane.has_area()) {
         ++worst.triangles;
@@ -64,7 +68,7 @@ class Measurement {
   }
 
  private:
-  void draw(const Sample& sample, const ExactPlane& plane, Worst& worst) {
+  void draw(const DepthSample& sample, const ExactPlane& plane, Worst& worst) {
     builder_.frame.commands.resize(1);
     builder_.frame.vertices.clear();
     builder_.frame.indices.clear();
@@ -92,7 +96,7 @@ class Measurement {
   }
 
   /// Some covered samples of a tile around a point of the triangle.
-  void tile(const Sample& sample, const ExactPlane& plane, const SetupTriangle& triangle, Worst& worst) {
+  void tile(const DepthSample& sample, const ExactPlane& plane, const SetupTriangle& triangle, Worst& worst) {
     double u = source_.fraction();
     double v = source_.fraction();
     if (u + v > 1) {
@@ -151,7 +155,7 @@ class Measurement {
     }
   }
 
-  void report(const Sample& sample, const ExactPlane::Error& error, int x, int y, double share) const {
+  void report(const DepthSample& sample, const ExactPlane::Error& error, int x, int y, double share) const {
     fmt::print(stderr, "seed {}, target {}: pixel ({}, {}), depth {}, {} units off, {} of the bound:", seed_,
                size_, x, y, error.depth, error.ulps, share);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -162,7 +166,7 @@ class Measurement {
   }
 
   Method method_;
-  FamilySource source_;
+  DepthFamilySource source_;
   int size_;
   std::uint64_t seed_;
   FrameBuilder builder_;
@@ -194,13 +198,13 @@ int main(int argc, char** argv) {
   std::uint64_t triangles = 0;
   double most = 0;
   std::string rows;
-  for (const auto& [family, text] : kFamilies) {
+  for (const auto& [family, text] : stress::kDepthFamilies) {
     rows += fmt::format("| {} |", text);
     for (const Method& method : kMethods) {
       Worst worst;
       for (const int size : kSizes) {
         Measurement(method, family, size, seed)
-            .run(samples / (kFamilies.size() * kMethods.size() * kSizes.size()) + 1, worst);
+            .run(samples / (stress::kDepthFamilies.size() * kMethods.size() * kSizes.size()) + 1, worst);
       }
       rows += fmt::format(" {:.4g} ({:.0f} %) |", worst.ulps, 100 * worst.share);
       all += worst.samples;

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstdlib>
+
+#include "halfspace/reference/float_edges.hpp"
 
 namespace halfspace::stress::wrong {
 namespace {
 
+using FloatLine = reference::FloatLine<float>;
+using FloatPoint = reference::FloatPoint<float>;
 using reference::GridPoint;
 using reference::GridTriangle;
 using reference::Piece;
@@ -76,10 +80,6 @@ void in_box(const Piece& piece, const PixelRect& box, Fragments& fragments) {
   fill(piece, box, fragments, [&](std::int64_t x, std::int64_t y) { return is_right(piece, x, y); });
 }
 
-float pixels(const Piece& piece, std::int64_t position) {
-  return std::ldexp(static_cast<float>(position), -piece.subpixel_bits);
-}
-
 constexpr std::int64_t kTile = 8;
 
 }  // namespace
@@ -109,71 +109,53 @@ void unturned_ties(const Piece& piece, Fragments& fragments) {
   with_ties(piece, fragments, [turned](const Edge& edge) { return edge.top_left() != turned; });
 }
 
-void float_edges(const Piece& piece, Fragments& fragments) {
-  const GridTriangle t = reference::clockwise(piece.grid);
-  fill(piece, piece.bounds, fragments, [&](std::int64_t x, std::int64_t y) {
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const GridPoint& from = t[i];
-      const GridPoint& to = t[(i + 1) % 3];
-      const float a = pixels(piece, from.y) - pixels(piece, to.y);
-      const float b = pixels(piece, to.x) - pixels(piece, from.x);
-      const float e = a * (static_cast<float>(x) + 0.5F - pixels(piece, from.x)) +
-                      b * (static_cast<float>(y) + 0.5F - pixels(piece, from.y));
-      inside &= e > 0 || (e == 0 && (a > 0 || (a == 0 && b > 0)));
-    }
-    return inside;
-  });
-}
-
 namespace {
 
-/// A x + B y + C in float32, with C by the difference of two products.
-struct FloatEdge {
-  float a;
-  float b;
-  float c;
-
-  [[nodiscard]] bool inside(float e) const { return e > 0 || (e == 0 && (a > 0 || (a == 0 && b > 0))); }
-};
-
-std::array<FloatEdge, 3> float_edges_of(const Piece& piece) {
+/// Three edges in float32, each made of two vertices.
+template <class EdgeType, class Make>
+std::array<EdgeType, 3> float_edges_of(const Piece& piece, const Make& make) {
   const GridTriangle t = reference::clockwise(piece.grid);
-  std::array<FloatEdge, 3> edges{};
+  std::array<EdgeType, 3> edges;
   for (std::size_t i = 0; i < 3; ++i) {
-    const float x0 = pixels(piece, t[i].x);
-    const float y0 = pixels(piece, t[i].y);
-    const float x1 = pixels(piece, t[(i + 1) % 3].x);
-    const float y1 = pixels(piece, t[(i + 1) % 3].y);
-    edges[i] = {y0 - y1, x1 - x0, x0 * y1 - x1 * y0};
+    edges[i] = make(reference::float_point(t[i], piece.subpixel_bits),
+                    reference::float_point(t[(i + 1) % 3], piece.subpixel_bits));
   }
   return edges;
 }
 
-}  // namespace
-
-void float_difference(const Piece& piece, Fragments& fragments) {
-  const std::array<FloatEdge, 3> edges = float_edges_of(piece);
+template <class Edges>
+void fill_by_floats(const Piece& piece, const Edges& edges, Fragments& fragments) {
   fill(piece, piece.bounds, fragments, [&](std::int64_t x, std::int64_t y) {
-    return std::all_of(edges.begin(), edges.end(), [&](const FloatEdge& edge) {
-      return edge.inside(edge.a * (static_cast<float>(x) + 0.5F) + edge.b * (static_cast<float>(y) + 0.5F) +
-                         edge.c);
+    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      return reference::on_inside(edge, edge.at(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F));
     });
   });
 }
 
+}  // namespace
+
+void float_edges(const Piece& piece, Fragments& fragments) {
+  using Edge = reference::VertexLine<float>;
+  const auto relative = [](const FloatPoint& from, const FloatPoint& to) { return Edge(from, to); };
+  fill_by_floats(piece, float_edges_of<Edge>(piece, relative), fragments);
+}
+
+void float_difference(const Piece& piece, Fragments& fragments) {
+  fill_by_floats(piece, float_edges_of<FloatLine>(piece, reference::line_by_difference<float>), fragments);
+}
+
 void float_increments(const Piece& piece, Fragments& fragments) {
-  const std::array<FloatEdge, 3> edges = float_edges_of(piece);
+  const auto edges = float_edges_of<FloatLine>(piece, reference::line_by_difference<float>);
   const PixelRect& box = piece.bounds;
   std::array<float, 3> row{};
   for (std::size_t i = 0; i < 3; ++i) {
-    row[i] = edges[i].a * (static_cast<float>(box.first_x) + 0.5F) +
-             edges[i].b * (static_cast<float>(box.first_y) + 0.5F) + edges[i].c;
+    row[i] = edges[i].at(static_cast<float>(box.first_x) + 0.5F, static_cast<float>(box.first_y) + 0.5F);
   }
   for (std::int64_t y = box.first_y; y < box.end_y; ++y) {
     std::array<float, 3> e = row;
     for (std::int64_t x = box.first_x; x < box.end_x; ++x) {
-      if (edges[0].inside(e[0]) && edges[1].inside(e[1]) && edges[2].inside(e[2])) {
+      if (reference::on_inside(edges[0], e[0]) && reference::on_inside(edges[1], e[1]) &&
+          reference::on_inside(edges[2], e[2])) {
         add(piece, x, y, fragments);
       }
       for (std::size_t i = 0; i < 3; ++i) e[i] += edges[i].a;
@@ -307,7 +289,8 @@ void no_prestep(const Piece& piece, Fragments& fragments) {
       if (y >= first && y < bottom.y >> piece.subpixel_bits) {
         // At the whole row the edge is taken to be where its upper end is.
         const double slope = static_cast<double>(bottom.x - top.x) / static_cast<double>(bottom.y - top.y);
-        crossings.push_back(pixels(piece, top.x) + slope * static_cast<double>(y - first));
+        crossings.push_back(reference::float_point(top, piece.subpixel_bits).x +
+                            slope * static_cast<double>(y - first));
       }
     }
     if (crossings.size() == 2) {

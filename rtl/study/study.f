@@ -1,0 +1,11 @@
+study/fp_pkg.sv
+study/fp_mul.sv
+study/fp_add.sv
+study/depth_float.sv
+study/depth_weights.sv
+study/depth_word_anchor.sv
+study/depth_word_sample.sv
+study/edge_float.sv
+study/edge_float_step.sv
+study/edge_integer.sv
+study/edge_integer_step.sv
