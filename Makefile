@@ -87,6 +87,11 @@ bench-speed: speed $(PLOT_TOOLS) ## Measure the model beside a scalar loop and l
 bench-literature: release-program ## Measure what published mechanisms save on our frames; write docs/guides/literature.md's tables.
 	tools/write_literature.py --captured $(CAPTURED)
 
+.PHONY: study-orientation study-depth-resolution
+study-orientation study-depth-resolution: build/release/build.ninja ## Run a test that others published; write docs/guides/robustness.md's tables.
+	cmake --build --preset release --target halfspace_$(subst -,_,$@)
+	tools/write_robustness.py $(@:study-%=%)
+
 .PHONY: stress-reports
 stress-reports: release-program ## Draw the scenes of public reports with rasterizers that fail; write docs/guides/stress.md's table.
 	tools/write_robustness.py stress-reports
