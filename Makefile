@@ -114,6 +114,20 @@ depth-error: build/release/build.ninja ## Measure the largest error of depth ove
 	cmake --build --preset release --target halfspace_depth_error
 	tools/write_figures.py depth-error
 
+.PHONY: study-precision
+study-precision: build/release/build.ninja $(PLOT_TOOLS) ## Measure the arithmetics of edges and depth; write docs/guides/precision.md's tables and pictures.
+	cmake --build --preset release --target halfspace_study_precision
+	@mkdir -p out/precision
+	$(BUILD)/model/halfspace/study/precision/halfspace_study_precision --json out/precision/precision.json $(SCENES) $(CAPTURED)
+	tools/write_precision.py --captured $(CAPTURED)
+	set -e; for kind in edges depth; do \
+	  .venv/bin/python tools/plot_precision.py out/precision/precision.json docs/precision.json $$kind docs/images/precision_$$kind.png; \
+	done
+
+.PHONY: study-precision-gates
+study-precision-gates: $(PYTHON_TOOLS) ## Synthesize these arithmetics, as far as docs/precision.json has no figures of them; takes half an hour in all.
+	.venv/bin/python rtl/synth_study.py --json docs/precision.json
+
 .PHONY: release debug
 release debug: %: build/%/build.ninja
 	cmake --build --preset $@

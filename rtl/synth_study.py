@@ -13,17 +13,16 @@ import sys
 
 from synthesis import tables
 from synthesis.runs import missing_tools, synthesize
-from synthesis.study import DEPTHS, EDGES, STUDY
+from synthesis.study import NAMES
 
 SCHEMA = {"schema": "halfspace-precision-hardware", "schema_version": 1}
-NAMES = {**EDGES, **DEPTHS}
 
 
 def measure(path: pathlib.Path, names: list[str]) -> bool:
     figures = json.loads(path.read_text()) if path.exists() else {**SCHEMA, "osu018": {}}
     done = figures["osu018"]
     for name in names or [name for name in NAMES if name not in done]:
-        run = synthesize(STUDY, NAMES[name], "osu018")
+        run = synthesize(*NAMES[name], "osu018")
         if run.failures:
             print(f"{name}: FAILED: " + "; ".join(run.failures), file=sys.stderr)
             return False
@@ -54,7 +53,7 @@ def main() -> int:
         if name not in NAMES:
             parser.error(f"arithmetic is '{name}'; legal: {', '.join(NAMES)}")
     if options.quick:
-        runs = {name: synthesize(STUDY, configuration, "none") for name, configuration in NAMES.items()}
+        runs = {name: synthesize(*what, "none") for name, what in NAMES.items()}
         for name, run in runs.items():
             print(f"{name}: " + ("FAILED: " + "; ".join(run.failures) if run.failures else "elaborates"))
         return 1 if any(run.failures for run in runs.values()) else 0

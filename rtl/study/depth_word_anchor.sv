@@ -33,7 +33,8 @@ module depth_word_anchor #(
     down_q  <= down_i;
   end
 
-  assign anchor = {z_q, {Fraction{1'b0}}} + dx_q * gradient_t'(right_q) + dy_q * gradient_t'(down_q);
+  assign anchor = {z_q, {Fraction{1'b0}}} + dx_q * gradient_t'(right_q)
+                  + dy_q * gradient_t'(down_q);
 
   function automatic word_t step(gradient_t gradient);
     return word_t'(gradient >> (Fraction - SubPixelBits))

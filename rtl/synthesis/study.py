@@ -1,6 +1,6 @@
 """What the precision study compares in gates: rtl/study, one edge or one depth a cycle."""
 
-from synthesis.units import Configuration, Unit
+from synthesis.units import SAMPLE_MULTIPLIERS, TILE_MULTIPLIERS, UNITS, Configuration, Unit
 
 FLOAT32 = {"ExponentBits": 8, "FractionBits": 23}
 DOUBLE = {"ExponentBits": 11, "FractionBits": 52}
@@ -15,6 +15,11 @@ def _fixed(sub_pixel_bits: int) -> Configuration:
     return _integer(17 + sub_pixel_bits, 35 + sub_pixel_bits)
 
 
+def _step(sub_pixel_bits: int) -> Configuration:
+    widths = {"StepBits": 17 + sub_pixel_bits, "SumBits": 35 + sub_pixel_bits}
+    return Configuration("edge_integer_step", {}, widths)
+
+
 def _float(top: str, number: dict[str, int], multipliers: int = 2, **more: str) -> Configuration:
     return Configuration(top, {}, {**number, **more}, multipliers)
 
@@ -26,7 +31,10 @@ EDGES = {
     "fixed_8": _fixed(8),
     "fixed_6": _fixed(6),
     "fixed_4": _fixed(4),
-    "fixed_8 by increments": Configuration("edge_integer_step", {}, {"StepBits": 25, "SumBits": 43}),
+    "exact_integer by increments": _step(24),
+    "fixed_8 by increments": _step(8),
+    "fixed_6 by increments": _step(6),
+    "fixed_4 by increments": _step(4),
     "normalised": _integer(32, 32),
     "float_difference": _float("edge_float", FLOAT32),
     "float_vertex": _float("edge_float", FLOAT32, FromVertex="1'b1"),
@@ -52,4 +60,18 @@ DEPTHS = {
     },
 }
 
+# The machine's own, for all formats and pipelined: 192 edges of a tile; a sample; a tile with four samples; a sample.
+BUILT = {
+    "edge_evaluator": ("edge_evaluator", Configuration("edge_evaluator", {"TILE_SIZE": 8, "SUB_PIXEL_BITS": 8})),
+    "plane_sample": ("early_z_parts", Configuration("plane_sample")),
+    "depth_plane": ("early_z_parts", Configuration("depth_plane", {}, {"Quads": 1}, TILE_MULTIPLIERS)),
+    "barycentric_sample": (
+        "early_z_parts",
+        Configuration("barycentric_sample", multipliers=SAMPLE_MULTIPLIERS),
+    ),
+}
+
 STUDY = Unit("study", ("study/study",), (*EDGES.values(), *DEPTHS.values()))
+# By name what Yosys reads, and what it makes of it.
+NAMES = {name: (STUDY, configuration) for name, configuration in {**EDGES, **DEPTHS}.items()}
+NAMES |= {name: (UNITS[unit], configuration) for name, (unit, configuration) in BUILT.items()}

@@ -65,10 +65,11 @@ T number(Random& random, T near) {
   const std::uint64_t kind = random.below(8);
   std::uint64_t field = random.below(kFields);
   std::uint64_t fraction = random.bits();
-  if (kind < 3) {  // a few binades from the other, or its neighbour
+  if (kind < 3) {  // as far from the other as a sum still sees both, or its neighbour
+    const std::uint64_t spread = kind == 2 ? 2 * kFraction + 5 : 5;
     const std::uint64_t other = std::bit_cast<Bits<T>>(near);
-    field = (other >> kFraction) % (kFields + 1) + random.below(5);
-    field = field < 2 ? 0 : std::min(field - 2, kFields - 1);
+    field = (other >> kFraction) % (kFields + 1) + random.below(spread);
+    field = field < spread / 2 ? 0 : std::min(field - spread / 2, kFields - 1);
     fraction = kind == 0 ? other + random.below(3) : fraction;
   } else if (kind == 3) {  // ends
     field = random.below(2) == 0 ? random.below(3) : kFields - 1 - random.below(3);

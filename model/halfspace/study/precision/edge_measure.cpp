@@ -1,7 +1,7 @@
 #include "halfspace/study/precision/edge_measure.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <map>
 
 #include "halfspace/reference/clipped_triangle.hpp"
@@ -133,10 +133,13 @@ std::vector<EdgeTally> measure_edges(const Drawing& drawing) {
   return tallies;
 }
 
-std::vector<double> time_edges(std::span<const FloatTriangle> triangles, const PixelRect& target,
-                               int rounds) {
-  using Clock = std::chrono::steady_clock;
+std::vector<EdgeTime> time_edges(std::span<const FloatTriangle> triangles, const PixelRect& target,
+                                 int rounds) {
   const auto subjects = edge_subjects();
+  const auto baseline =
+      static_cast<std::size_t>(std::find_if(subjects.begin(), subjects.end(),
+                                            [](const auto& each) { return each.name == kBaseline; }) -
+                               subjects.begin());
   std::int64_t samples = 0;
   for (const FloatTriangle& triangle : triangles) {
     samples += Picture::area(touched(triangle, target));
@@ -145,16 +148,24 @@ std::vector<double> time_edges(std::span<const FloatTriangle> triangles, const P
   std::uint64_t kept = 0;  // so that nothing is optimised away
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < subjects.size(); ++i) {
-      const auto start = Clock::now();
+      const std::clock_t start = std::clock();
       kept += subjects[i].count(triangles, target);
-      const std::chrono::duration<double, std::nano> time = Clock::now() - start;
-      times[i].push_back(kept == 0 ? 0 : time.count() / static_cast<double>(samples));
+      const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+      times[i].push_back(kept == 0 ? 0 : seconds * 1e9 / static_cast<double>(samples));
     }
   }
-  std::vector<double> medians;
-  for (auto& list : times) {
-    std::nth_element(list.begin(), list.begin() + rounds / 2, list.end());
-    medians.push_back(list[static_cast<std::size_t>(rounds / 2)]);
+  const auto median = [](std::vector<double> list) {
+    const auto middle = list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+    std::nth_element(list.begin(), middle, list.end());
+    return *middle;
+  };
+  std::vector<EdgeTime> medians;
+  for (const std::vector<double>& list : times) {
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < list.size(); ++round) {
+      ratios.push_back(list[round] / times[baseline][round]);
+    }
+    medians.push_back({median(list), median(ratios)});
   }
   return medians;
 }

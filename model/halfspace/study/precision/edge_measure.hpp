@@ -26,9 +26,14 @@ struct EdgeTally {
 /// One tally for each of edge_subjects(). Judged by reference::covers.
 [[nodiscard]] std::vector<EdgeTally> measure_edges(const Drawing& drawing);
 
-/// Nanoseconds a sample of the bounding boxes, for each of edge_subjects(): the median of `rounds` in which
-/// all take turns.
-[[nodiscard]] std::vector<double> time_edges(std::span<const FloatTriangle> triangles,
-                                             const PixelRect& target, int rounds);
+/// Of processor time, not of the clock on the wall: medians of rounds in which all take turns.
+struct EdgeTime {
+  double nanoseconds = 0;  ///< a sample of the bounding boxes
+  double ratio = 0;        ///< to the baseline's of the same round
+};
+
+/// For each of edge_subjects().
+[[nodiscard]] std::vector<EdgeTime> time_edges(std::span<const FloatTriangle> triangles,
+                                               const PixelRect& target, int rounds);
 
 }  // namespace halfspace::study

@@ -62,9 +62,10 @@ ordered_json frame_report(const std::filesystem::path& path) {
 ordered_json time_report(std::string looks, const std::vector<FloatTriangle>& triangles,
                          const PixelRect& target, int rounds) {
   ordered_json made{{"looks", std::move(looks)}, {"rounds", rounds}};
-  const std::vector<double> times = time_edges(triangles, target, rounds);
+  const std::vector<EdgeTime> times = time_edges(triangles, target, rounds);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    made["nanoseconds"][std::string(edge_subjects()[i].name)] = times[i];
+    made["rows"][std::string(edge_subjects()[i].name)] = {{"nanoseconds", times[i].nanoseconds},
+                                                          {"ratio", times[i].ratio}};
   }
   return made;
 }
@@ -105,6 +106,7 @@ ordered_json edge_report(std::uint64_t samples, std::uint64_t seed, int rounds,
   for (const std::filesystem::path& frame : frames) {
     made["frames"].push_back(frame_report(frame));
   }
+  made["baseline"] = kBaseline;
   made["time"] = time_reports(seed, rounds);
   return made;
 }

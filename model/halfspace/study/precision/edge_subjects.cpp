@@ -51,7 +51,7 @@ constexpr std::array kSubjects{
     subject<FloatAverage>("float_average", "the same, C the mean of both ends'", "McMillan, MIT 6.837, 2000"),
     subject<FloatVertex>("float_vertex", "A (x - x0) + B (y - y0) in float32", "Pineda 1988"),
     subject<FloatIncrements>("float_increments", "float32, A added for each pixel, B for each row", "Pineda 1988"),
-    subject<FloatEpsilon>("float_epsilon", "float32, |E| of 0.001 or less taken for a tie", "reference/float_epsilon"),
+    subject<FloatEpsilon>("float_epsilon", "float32, E within 0.001 of 0 taken for a tie", "reference/float_epsilon"),
     subject<Normalised>("normalised", "16.16 fixed point, divided by the triangle's largest A or B", "Vortex"),
 };
 // clang-format on

@@ -21,6 +21,9 @@ struct EdgeSubject {
   std::uint64_t (*count)(std::span<const FloatTriangle> triangles, const PixelRect& target);
 };
 
+/// The arithmetic of the default machine.
+inline constexpr std::string_view kBaseline = "fixed_8";
+
 [[nodiscard]] std::span<const EdgeSubject> edge_subjects();
 
 }  // namespace halfspace::study
