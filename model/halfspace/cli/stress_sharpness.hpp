@@ -6,7 +6,7 @@
 namespace halfspace {
 
 /// Runs the campaign on every rasterizer that is wrong on purpose, and prints which families find it; where
-/// none does, which scenes of reports. Returns the exit status: 0 where all are found.
+/// none of all families does, which scenes of reports. Returns the exit status: 0 where all are found.
 int print_sharpness(const stress::CampaignPlan& plan);
 
 /// The same on the textbook rasterizers too, by the scene of a report: which of them show what was reported.
