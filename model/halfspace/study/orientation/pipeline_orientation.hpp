@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "halfspace/reference/exact_triangle.hpp"
+#include "halfspace/study/baseline.hpp"
 #include "halfspace/study/orientation/grid.hpp"
 
 namespace halfspace::study {
@@ -12,7 +13,6 @@ namespace halfspace::study {
 /// The unit of the paper in pixels: a power of two, so that nothing is rounded, and as large as leaves r
 /// inside the guard band.
 inline constexpr int kPixels = 1024;
-inline constexpr int kSubPixelBits = 8;
 
 using SnappedTriple = std::array<reference::GridPoint, 3>;
 

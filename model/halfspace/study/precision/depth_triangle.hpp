@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "halfspace/reference/exact_triangle.hpp"
+#include "halfspace/study/baseline.hpp"
 
 namespace halfspace::study {
-
-inline constexpr int kSubPixelBits = 8;
 
 struct DepthVertex {
   std::int64_t x = 0;  ///< in 1/2^kSubPixelBits pixel
