@@ -138,11 +138,6 @@ def edge_cost(_):
     return f"{how}\n\n{table(head, rows)}"
 
 
-def list_of_depths(_):
-    rows = [[code(each["name"]), each["computes"]] for each in result()["depth"]["arithmetics"]]
-    return table(["arithmetic", "computes"], rows, 2)
-
-
 def depth(tools):
     sets = depth_sets(result()["depth"])
     text = []
@@ -193,7 +188,6 @@ FIGURES = {
         "precision-wrong": wrong,
         "precision-snapping": snapping,
         "precision-edge-cost": edge_cost,
-        "precision-depths": list_of_depths,
         "precision-depth": depth,
         "precision-depth-cost": depth_cost,
     }.items()

@@ -38,11 +38,13 @@ module depth_word_sample #(
   assign word = origin_q + word_t'(x_q) * dx_q + word_t'(y_q) * dy_q;
 
   // The sign and a code of 24 bits, halves upwards; half a code has no place where there is nothing below one.
-  logic signed [Bits+1:0] sum;
-  logic signed [25:0]     code;
+  typedef logic signed [Bits+1:0] sum_t;
+
+  sum_t               sum;
+  logic signed [25:0] code;
 
   if (Below > 0) begin : gen_round
-    assign sum  = $signed({word[Bits], word}) + $bits(sum)'(64'sd1 << (Below - 1));
+    assign sum  = $signed({word[Bits], word}) + (sum_t'(1) << (Below - 1));
     assign code = sum[Bits+1:Below];
     logic unused_low;
     assign unused_low = ^sum[Below-1:0];

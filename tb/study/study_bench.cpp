@@ -178,6 +178,34 @@ void check_edges(Model& model, Random& random) {
          at);
 }
 
+/// Sixteen steps to the right of a value that is near 0 on the way.
+void check_steps(Model& model, Random& random) {
+  constexpr std::int64_t kSteps = 16;
+  const std::int64_t a = random.range(-(1 << 20), 1 << 20);
+  std::int64_t value = -a * random.range(0, kSteps) + random.range(-3, 3);
+  const float step = std::ldexp(static_cast<float>(a), -8);
+  float line = std::ldexp(static_cast<float>(value), -8);
+  model->step_a_i = static_cast<std::uint32_t>(a) & 0x1FFFFFF;
+  model->constant_i = static_cast<std::uint64_t>(value) & ((std::uint64_t{1} << 43) - 1);
+  model->line_a_i = std::bit_cast<std::uint32_t>(step);
+  model->line_c_i = std::bit_cast<std::uint32_t>(line);
+  model->owns_i = a > 0 ? 1 : 0;
+  model->first_i = 1;
+  clock(model, 1);
+  model->first_i = 0;
+  for (std::int64_t i = 0; i < kSteps; ++i) {
+    clock(model, 1);
+    const auto at = static_cast<std::uint64_t>(i);
+    expect(model->integer_step_o, value >= 0 ? 1 : 0, "step of an integer edge",
+           static_cast<std::uint64_t>(value), at);
+    const bool inside = line > 0 || (line == 0 && a > 0);
+    expect(model->line_step_o, inside ? 1 : 0, "step of a float32 edge", std::bit_cast<std::uint32_t>(line),
+           at);
+    value += a;
+    line += step;
+  }
+}
+
 void check_depth(Model& model, Random& random) {
   using study::DepthTriangle;
   const auto depth = [&] { return static_cast<float>(random.below((1 << 24) + 1)) / (1 << 24); };
@@ -238,6 +266,9 @@ int main(int argc, char** argv) {
     for (std::uint64_t i = 0; i < vectors; ++i) {
       check_numbers(model, random);
       check_edges(model, random);
+      if (i % 8 == 0) {
+        check_steps(model, random);
+      }
       check_depth(model, random);
     }
     if (flip) {

@@ -21,7 +21,9 @@ module study_units #(
   input  logic [42:0]          constant_i,
   input  logic [13:0]          x_i,
   input  logic [13:0]          y_i,
+  input  logic                 first_i,
   output logic                 integer_o,
+  output logic                 integer_step_o,
 
   input  logic [31:0]          line_a_i,
   input  logic [31:0]          line_b_i,
@@ -34,6 +36,7 @@ module study_units #(
   output logic                 line_o,
   output logic                 vertex_o,
   output logic                 epsilon_o,
+  output logic                 line_step_o,
   output logic [31:0]          depth_o,
 
   input  logic [PlaneBits:0]    z_i,
@@ -73,6 +76,23 @@ module study_units #(
     .x_i      (x_i),
     .y_i      (y_i),
     .inside_o (integer_o)
+  );
+
+  // By steps to the right, from the constants on.
+  edge_integer_step u_integer_step (
+    .clk_i    (clk_i),
+    .first_i  (first_i),
+    .a_i      (step_a_i),
+    .row_i    (constant_i),
+    .inside_o (integer_step_o)
+  );
+  edge_float_step u_float_step (
+    .clk_i    (clk_i),
+    .first_i  (first_i),
+    .a_i      (line_a_i),
+    .row_i    (line_c_i),
+    .owns_i   (owns_i),
+    .inside_o (line_step_o)
   );
 
   logic [2:0] found;

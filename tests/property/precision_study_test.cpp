@@ -142,7 +142,7 @@ TEST_CASE("precision study: lines by difference and by average change their sign
   const auto position = [&] {
     return std::ldexp(static_cast<float>(random.between(-1 << 23, 1 << 23)), -13);
   };
-  for (std::uint64_t i = 0; i < samples(10000); ++i) {
+  for (std::uint64_t i = 0; i < samples(200000) / 20; ++i) {
     const reference::FloatPoint<float> p{position(), position()};
     const reference::FloatPoint<float> q{position(), position()};
     const float x = position();
@@ -172,7 +172,7 @@ TEST_CASE("precision study: words of 31 and 63 bits and weights of 32 bits are t
       CAPTURE(pair.unit, name(pair.format), family.name);
       std::uint64_t same = 0;
       std::uint64_t other = 0;
-      for (std::uint64_t i = 0; i < samples(20000) / 30; ++i) {
+      for (std::uint64_t i = 0; i < samples(200000) / 300; ++i) {
         const GridDepth made = family.next();
         if (reference::twice_area(made.grid[0], made.grid[1], made.grid[2]) == 0) continue;
         const DepthTriangle triangle(made.grid, made.z);
@@ -205,12 +205,12 @@ TEST_CASE("precision study: the units hold a unit of the last place", "[property
   for (const auto& targets : depth_families(seed())) {
     for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24, DepthFormat::kFloat32}) {
       CAPTURE(targets.front().name, name(format));
-      auto errors = depth_errors(targets[1], format, samples(600), seed());
+      auto errors = depth_errors(targets[1], format, samples(200000) / 300, seed());
       REQUIRE(depth_subjects()[0].unit);
       REQUIRE(depth_subjects()[1].unit);
       CHECK(summary(errors[0]).worst < 0.67);
       CHECK(summary(errors[1]).worst < 0.56);
-      CHECK(summary(errors[0]).samples >= 600);
+      CHECK(summary(errors[0]).samples >= samples(200000) / 300);
     }
   }
 }

@@ -150,6 +150,9 @@ std::vector<Drawing> frame_drawings(const std::filesystem::path& path) {
     }
   }
   std::erase_if(drawings, [](const Drawing& drawing) { return drawing.triangles.empty(); });
+  if (drawings.empty()) {
+    throw InputError(path.string() + " has no triangle; a frame to measure edges on must have one");
+  }
   return drawings;
 }
 
