@@ -98,8 +98,8 @@ Case cut_apart(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, kScreen, seed);
   list.draw();
   const auto real = [&](double low, double high) { return list.random.real(low, high); };
-  // A fan on the floor around a point in front of the camera. Its other vertices are so far off, in all directions, that
-  // every triangle is cut by the near plane or the far plane or a side.
+  // A fan on the floor around a point in front of the camera. Its other vertices are so far off, in all
+  // directions, that every triangle is cut by the near plane or the far plane or a side.
   const double height = real(0.3, 1.5);
   const glm::vec4 middle(project(real(-1, 1), height, real(1.5, 4)));
   std::vector<glm::vec4> around;
