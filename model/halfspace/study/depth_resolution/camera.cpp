@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "halfspace/numerics/split_mix.hpp"
+
 namespace halfspace::study {
 namespace {
 
@@ -72,12 +74,23 @@ glm::vec4 Camera::clip(const glm::dvec3& view) const {
   return transformed(clip_from_world_, world, transform_ == Transform::kPrecomposedInPairs);
 }
 
-std::vector<double> distances(const Planes& planes, std::size_t pairs, bool logarithmic) {
+std::vector<double> equal_steps(const Planes& planes, std::size_t pairs) {
   std::vector<double> result;
   for (std::size_t i = 0; i <= pairs; ++i) {
-    const double t = static_cast<double>(i) / static_cast<double>(pairs);
-    result.push_back(logarithmic ? planes.near * std::pow(planes.far / planes.near, t)
-                                 : planes.near + (planes.far - planes.near) * t);
+    const double part = static_cast<double>(i) / static_cast<double>(pairs);
+    result.push_back(planes.near + (planes.far - planes.near) * part);
+  }
+  return result;
+}
+
+std::vector<double> random_pairs(const Planes& planes, std::size_t pairs) {
+  SplitMix64 random(1);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const double first = std::exp(random.real(std::log(planes.near), std::log(planes.far)));
+    const double apart = std::exp2(random.real(-20, -8));
+    result.push_back(first);
+    result.push_back(first * (1 + apart));
   }
   return result;
 }

@@ -60,8 +60,12 @@ class Camera {
   glm::mat4 clip_from_world_;
 };
 
-/// `pairs` + 1 distances from near to far, at equal steps of the distance or of its logarithm.
-std::vector<double> distances(const Planes& planes, std::size_t pairs, bool logarithmic);
+/// `pairs` + 1 distances from near to far, at equal steps.
+std::vector<double> equal_steps(const Planes& planes, std::size_t pairs);
+
+/// Pairs of distances, one behind the other: the logarithm of the first is uniform between near and far, that
+/// of the second's relative distance from it between 2^-20 and 2^-8.
+std::vector<double> random_pairs(const Planes& planes, std::size_t pairs);
 
 /// What became of the pairs of neighbours.
 struct Confusion {
@@ -77,13 +81,15 @@ struct Confusion {
   }
 };
 
-/// `depths`: of the distances in rising order, in anything that compares.
+/// `depths`: of distances, in anything that compares. Pairs begin at every `step`th, and the second is
+/// farther.
 template <class Depth>
-Confusion confusion(const std::vector<Depth>& depths, Projection projection) {
-  Confusion result{.pairs = depths.size() - 1};
-  for (std::size_t i = 0; i + 1 < depths.size(); ++i) {
+Confusion confusion(const std::vector<Depth>& depths, Projection projection, std::size_t step = 1) {
+  Confusion result;
+  for (std::size_t i = 0; i + 1 < depths.size(); i += step) {
     const bool falls = depths[i + 1] < depths[i];
     const bool equal = depths[i + 1] == depths[i];
+    ++result.pairs;
     result.equal += equal ? 1 : 0;
     result.swapped += !equal && falls != is_reversed(projection) ? 1 : 0;
   }
