@@ -38,7 +38,7 @@ constexpr std::array kReports{
            "https://github.com/bulletphysics/bullet3/issues/1006", "drops_cut"},
     Family{"corner_cut_off", "a wall that loses corners to the near plane, so that one triangle becomes two", kInside, report::corner_cut_off,
            "https://github.com/bochs-emu/Bochs/pull/621", "draws_first_piece"},
-    Family{"cut_apart", "a fan around a point in view, whose triangles the near plane, the far plane and the sides cut", kInside, report::cut_apart,
+    Family{"cut_apart", "a fan around a point in front of the camera, its other vertices far off in all directions, so that every triangle is cut", kInside, report::cut_apart,
            "https://github.com/NVlabs/nvdiffrast/issues/225", "cuts_in_float"},
     Family{"vertex_behind_eye", "a floor of one triangle with a vertex behind the eye", "samples two sub-pixels from every edge as exact arithmetic has them", report::vertex_behind_eye,
            "https://github.com/vindar/tgx/issues/47", "discards_by_division"},
