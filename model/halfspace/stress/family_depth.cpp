@@ -100,7 +100,7 @@ Case clamp_and_offset(const Precision& precision, std::uint64_t seed) {
       draw.flags |= bits({Flag::kPolygonOffset});
       draw.offset_factor = list.one_in(3) ? 0 : any(-10, 3);
       draw.offset_units = list.one_in(3) ? 0 : any(0, 20);
-      draw.offset_clamp = list.one_in(2) ? 0 : any(-10, -1);
+      draw.offset_clamp = list.one_in(2) ? 0 : any(-22, -1);
     }
     for (int k = 0; k < 4; ++k) {
       std::array<float, 3> z{};
