@@ -29,7 +29,7 @@ Drawing stress_drawing(const stress::Family& family, std::uint64_t seed, std::ui
 }
 
 /// Triangles around a point of the target, to corners near the guard band: edges that are shared and long.
-Drawing far_fan(std::uint64_t seed) {
+Drawing long_fan(std::uint64_t seed) {
   constexpr int kArms = 24;
   constexpr double kReach = 32000;
   constexpr double kTurn = 6.283185307179586;
@@ -125,8 +125,8 @@ std::vector<EdgeFamily> edge_families(std::uint64_t seed) {
         {std::string(name), std::string(family.looks), name == "mesh",
          [&family, seed](std::uint64_t index) { return stress_drawing(family, seed, index); }});
   }
-  families.push_back({"far_fan", "24 triangles around a point, with edges of 32,000 pixels", true,
-                      [seed](std::uint64_t index) { return far_fan(seed + index); }});
+  families.push_back({"long_fan", "24 triangles around a point, with edges of 32,000 pixels", true,
+                      [seed](std::uint64_t index) { return long_fan(seed + index); }});
   const auto add_mesh = [&](std::string name, std::string looks, std::int64_t first, int cells, int cell) {
     families.push_back({std::move(name), std::move(looks), true, [=](std::uint64_t index) {
                           return jittered_mesh(first, cells, cell, 0.25, seed + index);
