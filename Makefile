@@ -4,6 +4,7 @@ BUILD := build/release
 HALFSPACE := $(BUILD)/bin/halfspace
 PYTHON_TOOLS := .venv/.installed
 PLOT_TOOLS := .venv/.plot_installed
+PROVE_TOOLS := .venv/.prove_installed
 
 .DEFAULT_GOAL := help
 
@@ -18,11 +19,11 @@ demo: release-program ## Install what is missing, build, and rasterize a truck o
 .PHONY: test
 test: release debug ## Install what is missing, build, and run the tests.
 	ctest --test-dir build/debug -L 'unit|property|timing' --output-on-failure -j 2
-	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis' --output-on-failure -j 2
+	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis|formal' --output-on-failure -j 2
 
 .PHONY: lint
-lint: build/release/build.ninja $(PYTHON_TOOLS) ## Look at layout and static analysis, and synthesize the RTL.
-	ctest --test-dir $(BUILD) -L 'lint|synthesis' --output-on-failure -j 2
+lint: build/release/build.ninja $(PYTHON_TOOLS) $(PROVE_TOOLS) ## Look at layout and static analysis, synthesize the RTL, and prove it in part.
+	ctest --test-dir $(BUILD) -L 'lint|synthesis|formal' --output-on-failure -j 2
 
 .PHONY: test-slow
 test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, and what `make test` leaves to them.
@@ -33,11 +34,12 @@ test-slow: release debug $(PYTHON_TOOLS) ## Build and run the long campaigns, an
 	ctest --test-dir $(BUILD) -L slow --output-on-failure -j 2
 
 .PHONY: prove
-prove: ## Install what is missing, and prove the arithmetic: proofs/coq and proofs/gappa.
+prove: $(PROVE_TOOLS) ## Install what is missing, and prove the arithmetic and the RTL: proofs/coq, proofs/gappa, proofs/smt.
 	@sh tools/install_packages.sh tools/packages-prove.txt
 	rm -rf build/proofs
 	proofs/coq/check.py build/proofs/coq
 	proofs/gappa/check.sh build/proofs/gappa
+	.venv/bin/python proofs/smt/check.py build/proofs/smt
 
 .PHONY: rtl
 rtl: build/release/build.ninja ## Verilate the pipeline of every named configuration, for --fidelity rtl.
@@ -128,6 +130,11 @@ $(PYTHON_TOOLS): tools/requirements.txt | packages
 
 $(PLOT_TOOLS): tools/requirements-plot.txt | packages
 	/usr/bin/python3 -m venv .venv
+	.venv/bin/pip install --quiet --requirement $<
+	touch $@
+
+# The solvers, beside Yosys of $(PYTHON_TOOLS).
+$(PROVE_TOOLS): tools/requirements-prove.txt $(PYTHON_TOOLS)
 	.venv/bin/pip install --quiet --requirement $<
 	touch $@
 
