@@ -1,6 +1,6 @@
 // A link: a pipeline of fixed latency (pipe_register), and behind it credit_fifo. Packets leave in the order in which
 // they came; the pipeline never pushes without a slot; and while the consumer takes, the producer gets a credit again
-// within Latency + 2 cycles, so the link cannot deadlock.
+// after Latency cycles at most, so the link cannot deadlock.
 
 module credit_fifo_properties #(
   parameter int unsigned Width = 8,
@@ -162,7 +162,7 @@ module credit_fifo_properties #(
     WatchedIsFound: assert (!watched || found == watched_data);
     OrderKept: assert (!(watched && pop && ahead == 0) || data == watched_data);
     ReadyIsACredit: assert (!ready || count < count_t'(Depth));
-    CreditComesBack: assert (starved_q <= 8'(Latency + 2));
+    CreditComesBack: assert (starved_q <= 8'(Latency));
 
     Full: cover (count == count_t'(Depth));
     FullThenEmpty: cover (full_q && count == 0);
