@@ -266,13 +266,14 @@ def write_mutant(mutant, folder):
 
 
 class Equivalents:
-    """The mutants that no input tells from the original, each with the reason."""
+    """The mutants that no input of a unit tells from the original, each with the reason."""
 
     FILE = pathlib.Path(__file__).with_name("mutants_equivalent.toml")
 
-    def __init__(self):
+    def __init__(self, unit):
         entries = tomllib.loads(self.FILE.read_text()).get("equivalent", [])
-        self.reasons = {(e["file"], e["before"], e["after"]): e["reason"] for e in entries}
+        here = [e for e in entries if e.get("unit", unit) == unit]
+        self.reasons = {(e["file"], e["before"], e["after"]): e["reason"] for e in here}
         self.places = [((e["file"], e["before"], e["after"]), e.get("places", 1)) for e in entries]
 
     def reason(self, mutant):

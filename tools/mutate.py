@@ -305,7 +305,7 @@ def main():
     if options.list:
         print("\n".join(map(row_of, mutants)))
         return 0
-    equivalents = Equivalents()
+    equivalents = Equivalents(unit)
     campaign = Campaign(options, bench, models, arguments, equivalents)
     try:
         check_before(bench, models, arguments, options.limit, equivalents)
