@@ -44,11 +44,11 @@ void compare_cores(std::uint64_t runs, const Difference& difference) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   std::uint64_t covered = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
-    const std::int64_t target = targets[run % targets.size()];
+    const std::int64_t target = targets[run / 2 % targets.size()];
     CAPTURE(seed(), run, hwy::TargetName(target));
     Config config = random_config(random);
-    if (random.between(0, 1) == 0) {  // what the fast core leaves to the units
-      config.block_walker.sample_reject = config.hi_z.enabled = config.z_cache.compression = false;
+    while (run % 2 == 0 && !fast::gap(config, {}, nullptr).empty()) {  // every other machine is covered
+      config = random_config(random);
     }
     const Frame frame = hard_frame(random);
     if (!fast::gap(config, {}, nullptr).empty()) {
@@ -62,7 +62,7 @@ void compare_cores(std::uint64_t runs, const Difference& difference) {
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  CHECK(covered > runs / 20);  // a quarter is expected
+  CHECK(covered > runs / 4);
 }
 
 Watch random_watch(Random& random) {

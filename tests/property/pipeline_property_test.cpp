@@ -247,10 +247,12 @@ TEST_CASE("one unit of polygon offset moves every flat unorm depth by a code") {
 
 // The sides of the clip volume: what they cut off is outside the viewport.
 TEST_CASE("nothing is drawn outside the viewport") {
-  const auto drawn = [](const glm::vec4& viewport, FillRuleKey rule, reference::TieRule tie_rule) {
+  const auto drawn = [](const glm::vec4& viewport, FillRuleKey rule, reference::TieRule tie_rule,
+                        std::uint32_t flags = 0) {
     FrameBuilder builder(64);
     Command& draw = builder.draw({{-500, -500, 0.5}, {900, -500, 0.5}, {-500, 900, 0.5}});
     draw.viewport = viewport;
+    draw.flags |= flags;
     Config config;
     config.setup.fill_rule = rule;
     const std::vector<std::uint16_t> ours = rows(run_surface(builder.frame, config).fragments);
@@ -286,6 +288,10 @@ TEST_CASE("nothing is drawn outside the viewport") {
         std::array{9, 9, 24, 24});
   CHECK(drawn(on_centres, FillRuleKey::kNormalSign, reference::TieRule::kNormalSign) ==
         std::array{8, 8, 23, 23});
+  // The draw's own rule, where the machine has none.
+  CHECK(drawn(on_centres, FillRuleKey::kDraw, reference::TieRule::kTopLeft) == std::array{8, 8, 23, 23});
+  CHECK(drawn(on_centres, FillRuleKey::kDraw, reference::TieRule::kBottomLeft,
+              bits({Flag::kBottomLeftRule})) == std::array{8, 9, 23, 24});
 }
 
 TEST_CASE("every state of a draw gives what the reference gives") {
