@@ -15,6 +15,7 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/scene/input_name.hpp"
 #include "halfspace/scene/synthetic.hpp"
 #include "halfspace/speed/llvmpipe.hpp"
 #include "halfspace/speed/scalar_loop.hpp"
@@ -46,7 +47,8 @@ struct SpeedOptions {
   }
 
   [[nodiscard]] Frame frame(const std::string& input) const {
-    if (!input.starts_with(kSyntheticPrefix)) {
+    const InputName name = input_name(input);
+    if (name.kind != InputKind::kSynthetic) {
       if (!depth.empty()) {
         throw InputError(fmt::format(
             "{}: has its own depth format, and --depth is '{}'; legal with --depth: synthetic frames", input,
@@ -54,8 +56,7 @@ struct SpeedOptions {
       }
       return load(input);
     }
-    return synthetic_frame(std::string_view(input).substr(kSyntheticPrefix.size()),
-                           depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
+    return synthetic_frame(name.stem, depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
   }
 };
 

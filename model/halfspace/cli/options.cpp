@@ -10,6 +10,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/validate.hpp"
+#include "halfspace/scene/input_name.hpp"
 
 namespace halfspace {
 namespace {
@@ -113,10 +114,11 @@ Config MachineOptions::config() const {
 CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& more) {
   CLI::Option* input =
       command
-          .add_option("INPUT", paths,
-                      "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
-                      "'halfspace info --help' lists the names" +
-                          more)
+          .add_option(
+              "INPUT", paths,
+              fmt::format("frame ({}), mesh ({}), {}, or {}NAME; 'halfspace info --help' lists the names",
+                          kFrameExtensions, kMeshExtensions, kPackedExtensions, kSyntheticPrefix) +
+                  more)
           ->required();
   command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
       ->type_name("X,Y,Z");
