@@ -14,9 +14,9 @@
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/scene/input_name.hpp"
 #include "halfspace/scene/synthetic.hpp"
+#include "halfspace/scene/load.hpp"
 #include "halfspace/speed/llvmpipe.hpp"
 #include "halfspace/speed/scalar_loop.hpp"
 #include "halfspace/speed/speed_table.hpp"
@@ -50,7 +50,7 @@ struct SpeedOptions {
     const InputName name = input_name(input);
     if (name.kind != InputKind::kSynthetic) {
       if (!depth.empty()) {
-        throw InputError(fmt::format(
+        throw OptionError(fmt::format(
             "{}: has its own depth format, and --depth is '{}'; legal with --depth: synthetic frames", input,
             depth));
       }
@@ -148,8 +148,8 @@ class SpeedBench {
   std::uint64_t count_scalar() {
     const ScalarCounts counts = loop_->count();
     if (counts.fragments != counters_.quad_generator.fragments) {
-      throw InputError(fmt::format("{}: coverage differs: functional {} fragments, scalar loop {}",
-                                   frame_.name, counters_.quad_generator.fragments, counts.fragments));
+      throw DisagreementError(fmt::format("{}: coverage differs: functional {} fragments, scalar loop {}",
+                                          frame_.name, counters_.quad_generator.fragments, counts.fragments));
     }
     return counts.survivors;
   }

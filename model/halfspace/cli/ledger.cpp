@@ -145,7 +145,7 @@ void ledger_command(const LedgerOptions& options) {
 
 }  // namespace
 
-void add_ledger_command(CLI::App& app, int& /*status*/) {
+void add_ledger_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<LedgerOptions>();
   CLI::App* command = app.add_subcommand(
       "ledger", "what became of every triangle, tile, quad, fragment and line of depth, and what saved work");

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/input_name.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/validate.hpp"
-#include "halfspace/scene/input_name.hpp"
 
 namespace halfspace {
 namespace {
@@ -38,7 +38,7 @@ std::vector<Number> parse_list(const std::string& text, char separator) {
 glm::vec3 parse_point(const char* option, const std::string& text) {
   const std::vector<float> v = parse_list<float>(text, ',');
   if (v.size() != 3) {
-    throw InputError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
+    throw OptionError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
   }
   return {v[0], v[1], v[2]};
 }
@@ -62,7 +62,7 @@ void set_stall(StallPlan& plan, const std::string& text) {
   }
   StallPlan::Rate& rate = plan.rate[static_cast<std::size_t>(point - kStallPointName.begin())];
   if (rate.max_cycles != 0) {
-    throw InputError(fmt::format("--stall is '{}'; '{}' was given before; legal: once", text, *point));
+    throw OptionError(fmt::format("--stall is '{}'; '{}' was given before; legal: once", text, *point));
   }
   rate = {.percent = numbers[0], .max_cycles = numbers[1]};
 }
@@ -73,7 +73,7 @@ std::optional<TimelineRange> parse_range(const char* option, const std::string& 
   }
   const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
   if (v.size() != 2 || v[0] > v[1]) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{} is '{}'; it must be FIRST:LAST, two integers from 0, the first not after the last",
                     option, text));
   }
@@ -87,13 +87,24 @@ std::uint64_t parse_seed(const char* option, const std::string& text) {
   }
   const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
   if (v.size() != 1) {
-    throw InputError(fmt::format("{} is '{}'; it must be an integer, 0 to {}", option, text,
-                                 std::numeric_limits<std::uint64_t>::max()));
+    throw OptionError(fmt::format("{} is '{}'; it must be an integer, 0 to {}", option, text,
+                                  std::numeric_limits<std::uint64_t>::max()));
   }
   return v[0];
 }
 
 }  // namespace
+
+void check_config(const Config& config, const std::string& file, bool changed) {
+  try {
+    validate(config);
+  } catch (const OptionError& error) {
+    if (changed) {
+      throw;
+    }
+    throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+}
 
 void MachineOptions::add_to(CLI::App& command) {
   command.add_option("--config", file, "configuration file (TOML)")->type_name("FILE");
@@ -107,7 +118,7 @@ Config MachineOptions::config() const {
   for (const std::string& setting : settings) {
     set_config(config, setting);
   }
-  validate(config);
+  check_config(config, file, !settings.empty());
   return config;
 }
 
@@ -147,8 +158,8 @@ Camera InputOptions::camera() const {
   if (!size.empty()) {
     const std::vector<std::uint32_t> v = parse_list<std::uint32_t>(size, 'x');
     if (v.size() != 2) {
-      throw InputError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size,
-                                   kMaxTargetSize));
+      throw OptionError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size,
+                                    kMaxTargetSize));
     }
     camera.width = v[0];
     camera.height = v[1];

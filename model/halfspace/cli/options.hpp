@@ -19,6 +19,10 @@
 
 namespace halfspace {
 
+/// Checks the configuration of a file, which settings have changed or not. Throws InputError where the file
+/// alone is wrong, OptionError where a setting has a part in it.
+void check_config(const Config& config, const std::string& file, bool changed);
+
 /// --config and --set.
 struct MachineOptions {
   std::string file;
@@ -81,7 +85,7 @@ struct StallOptions {
   std::string seed;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] StallPlan plan() const;  ///< throws InputError
+  [[nodiscard]] StallPlan plan() const;  ///< throws OptionError
 };
 
 /// --rtl-folder, --rtl-seed and --wave: the verilated pipeline of a run.
@@ -106,7 +110,7 @@ struct TimelineOptions {
   std::string cycles;
 
   void add_to(CLI::App& command, CLI::Option* out);
-  [[nodiscard]] TimelineChoice choice() const;  ///< throws InputError
+  [[nodiscard]] TimelineChoice choice() const;  ///< throws OptionError
 };
 
 }  // namespace halfspace

@@ -44,7 +44,7 @@ struct Row {
 Sweep parse_sweep(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals + 1 == text.size()) {
-    throw InputError(fmt::format("--sweep is '{}'; it must read KEY=VALUE,VALUE,...", text));
+    throw OptionError(fmt::format("--sweep is '{}'; it must read KEY=VALUE,VALUE,...", text));
   }
   Sweep sweep{.key = text.substr(0, equals), .values = {}};
   for (std::size_t at = equals + 1; at <= text.size();) {
@@ -69,23 +69,24 @@ void make_machines(const RetimeOptions& options, const std::vector<Sweep>& sweep
   for (const Sweep& sweep : sweeps) {
     combinations *= sweep.values.size();
     if (combinations * bases.size() > kMostMachines) {
-      throw InputError(fmt::format("--sweep makes too many machines; legal: at most {}", kMostMachines));
+      throw OptionError(fmt::format("--sweep makes too many machines; legal: at most {}", kMostMachines));
     }
   }
-  for (auto& [name, base] : bases) {
+  for (auto& [file, base] : bases) {
     for (const std::string& setting : options.settings) {
       set_config(base, setting);
     }
     for (std::size_t i = 0; i < combinations; ++i) {
       Config config = base;
-      Row row{.name = name, .values = std::vector<std::string>(sweeps.size())};
+      Row row{.name = std::filesystem::path(file).stem().string(),
+              .values = std::vector<std::string>(sweeps.size())};
       std::size_t rest = i;
       for (std::size_t k = sweeps.size(); k-- > 0;) {
         row.values[k] = sweeps[k].values[rest % sweeps[k].values.size()];
         rest /= sweeps[k].values.size();
         set_config(config, sweeps[k].key, row.values[k]);
       }
-      validate(config);
+      check_config(config, file, !options.settings.empty() || !sweeps.empty());
       machines.push_back(std::move(row));
       configs.push_back(config);
     }
@@ -161,7 +162,7 @@ void retime(const RetimeOptions& options) {
 
 }  // namespace
 
-void add_retime_command(CLI::App& app, int& /*status*/) {
+void add_retime_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<RetimeOptions>();
   CLI::App* command =
       app.add_subcommand("retime", "compute the cycles of a recorded frame on other machines");

@@ -78,7 +78,7 @@ void check_reference(const RunCommand& options) {
                                     {rtl.every_cycle, "--rtl-every-cycle"},
                                     {options.what_if.what_if().any(), "a what-if"}}) {
     if (given) {
-      throw InputError(
+      throw OptionError(
           fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
                       "--no-pictures, and the camera of a mesh",
                       options.reference, name));
@@ -124,8 +124,7 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
   return run(fidelity, frame, config, options);
 }
 
-/// Returns the exit status.
-int run_command(const RunCommand& command) {
+ExitStatus run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
     run_reference({.method = command.reference,
@@ -133,7 +132,7 @@ int run_command(const RunCommand& command) {
                    .quads = command.quads,
                    .pictures = !command.no_pictures},
                   whatif::join(command.input.frames()), command.machine.config());
-    return 0;
+    return ExitStatus::kDone;
   }
   const Fidelity fidelity = fidelity_of(command.fidelity);
   check_fidelity(fidelity, command);
@@ -194,12 +193,12 @@ int run_command(const RunCommand& command) {
   if (folder) {
     fmt::print("  results in {}\n", command.out);
   }
-  return agree ? 0 : 1;
+  return status_of(agree);
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& status) {
+void add_run_command(CLI::App& app, ExitStatus& status) {
   auto options = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
   options->input.add_several_to(*command);

@@ -41,7 +41,7 @@ reference::Options options_of(const ReferenceRequest& request, const Config& con
   options.rule = tie_rule(config);
   options.subpixel_bits = config.raster.sub_pixel_bits;
   if (config.late_z.mode == LateZ::kLate) {
-    throw InputError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
+    throw OptionError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
   }
   options.late_z =
       config.late_z.mode == LateZ::kOpaque ? reference::LateZ::kOpaque : reference::LateZ::kNoWrite;

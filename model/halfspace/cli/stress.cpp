@@ -24,6 +24,7 @@
 #include "halfspace/stress/wrong_rasterizer.hpp"
 
 namespace halfspace {
+#include "halfspace/reference/methods.hpp"
 namespace {
 
 struct StressCommand {
@@ -117,9 +118,9 @@ std::unique_ptr<stress::Subject> make_subject(const StressCommand& command, Fide
       "--engine is '{}'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME", command.engine));
 }
 
-/// All triangles of a small grid. Returns the exit status.
-int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Config& config,
-                       const RunOptions& options) {
+/// All triangles of a small grid.
+ExitStatus exhaustive_command(const StressCommand& command, Fidelity fidelity, const Config& config,
+                              const RunOptions& options) {
   ProgressBar bar("exhaustive");
   const auto progress = [&](std::size_t done) { bar.update(done, stress::kGridPoints / command.every); };
   const reference::TieRule rule = precision_of(command, config).rule;
@@ -137,7 +138,7 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
         "{} quads wrong; {} tiles decided, {} unsound; {} edges, {} samples on them, {} not owned once\n",
         tally.wrong_quads, tally.tiles, tally.unsound, tally.edges, tally.on_edges, tally.ownerless);
   }
-  return tally.errors() == 0 ? 0 : 1;
+  return status_of(tally.errors() == 0);
 }
 
 /// Returns the exit status.
@@ -154,13 +155,13 @@ int stress_command(const StressCommand& command) {
   if (command.sharpness) {
     stress::CampaignPlan plan = plan_of(command, config);
     plan.folder.clear();
-    return command.reports ? print_report_sharpness(plan) : print_sharpness(plan);
+    return status_of(command.reports ? print_report_sharpness(plan) : print_sharpness(plan));
   }
   const stress::CampaignPlan plan = plan_of(command, config);
   if (!command.write.empty()) {
     stress::write_cases(plan.families, plan.precision, plan.seed, command.cases.value_or(1), command.write);
     fmt::print("cases in {}\n", command.write);
-    return 0;
+    return ExitStatus::kDone;
   }
   const std::unique_ptr<stress::Subject> subject = make_subject(command, fidelity, config, options);
   ProgressBar bar("stress");
@@ -181,12 +182,12 @@ int stress_command(const StressCommand& command) {
   if (!command.out.empty()) {
     fmt::print("\nresults in {}\n", command.out);
   }
-  return state.sum().errors() == 0 ? 0 : 1;
+  return status_of(state.sum().errors() == 0);
 }
 
 }  // namespace
 
-void add_stress_command(CLI::App& app, int& status) {
+void add_stress_command(CLI::App& app, ExitStatus& status) {
   auto options = std::make_shared<StressCommand>();
   CLI::App* command = app.add_subcommand("stress",
                                          "draw what is hard on arithmetic, and judge it by exact arithmetic; "

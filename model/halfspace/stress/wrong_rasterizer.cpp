@@ -325,7 +325,7 @@ const WrongRasterizer& wrong_rasterizer(std::string_view name) {
     }
     names += fmt::format("{}{}", names.empty() ? "" : ", ", wrong.name);
   }
-  throw InputError(fmt::format("wrong rasterizer is '{}'; it must be one of {}", name, names));
+  throw OptionError(fmt::format("wrong rasterizer is '{}'; it must be one of {}", name, names));
 }
 
 std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, const Precision& precision) {
