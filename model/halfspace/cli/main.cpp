@@ -7,8 +7,10 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/standard_streams.hpp"
 #include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
@@ -69,13 +71,19 @@ ExitStatus run_program(int argc, char** argv) {
   app.set_version_flag("--version", HALFSPACE_VERSION);
   app.footer(kExitStatusHelp);
   try {
-    return parse_and_run(app, argc, argv);
+    const ExitStatus status = parse_and_run(app, argc, argv);
+    flush_standard_output();
+    return status;
   } catch (const OptionError& error) {
     return fail(ExitStatus::kUsage, error.what());
   } catch (const DisagreementError& error) {
     return fail(ExitStatus::kDifferent, error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitStatus::kTrouble, "not enough memory for this input");
+  } catch (const std::system_error& error) {
+    return fail(ExitStatus::kTrouble, std::ferror(stdout) == 0
+                                          ? error.what()
+                                          : "standard output: cannot be written: " + error.code().message());
   } catch (const std::exception& error) {
     return fail(ExitStatus::kTrouble, error.what());
   }
@@ -85,5 +93,6 @@ ExitStatus run_program(int argc, char** argv) {
 }  // namespace halfspace
 
 int main(int argc, char** argv) {
+  halfspace::hold_standard_streams();
   return static_cast<int>(halfspace::run_program(argc, argv));
 }
