@@ -10,13 +10,14 @@
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/input_name.hpp"
-#include "halfspace/scene/synthetic.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/scene/synthetic.hpp"
 #include "halfspace/speed/llvmpipe.hpp"
 #include "halfspace/speed/scalar_loop.hpp"
 #include "halfspace/speed/speed_table.hpp"
@@ -233,13 +234,13 @@ void add_bench_speed(CLI::App& bench) {
   options->core.add_to(*speed);
   options->threads.add_to(*speed, "The model uses them");
   speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
-      ->check(CLI::IsMember({"unorm24", "float32"}))
+      ->check(one_of({"unorm24", "float32"}))
       ->type_name("FORMAT");
   speed->add_option("--repeat", options->repeat, "number of timed passes of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   speed->add_option("--without", options->without, "leave contenders out")
-      ->check(CLI::IsMember({"functional_pixels", "scalar_loop", "llvmpipe"}))
+      ->check(one_of({"functional_pixels", "scalar_loop", "llvmpipe"}))
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows is INPUT
       ->type_name("NAME,...");

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/standard_streams.hpp"
 #include "halfspace/numerics/error.hpp"
 
@@ -61,7 +62,9 @@ ExitStatus parse_and_run(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::Success& help_or_version) {
     return print_help(app, help_or_version);
   } catch (const CLI::ParseError& error) {
-    return fail(ExitStatus::kUsage, fmt::format("{}; see '{} --help'", error.what(), command_of(app)));
+    const std::string unknown = unknown_word(app);
+    return fail(ExitStatus::kUsage, fmt::format("{}; see '{} --help'",
+                                                unknown.empty() ? error.what() : unknown, command_of(app)));
   }
   return status;
 }

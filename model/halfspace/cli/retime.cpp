@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/record/frame_record_file.hpp"
@@ -60,7 +61,7 @@ void make_machines(const RetimeOptions& options, const std::vector<Sweep>& sweep
                    std::vector<Row>& machines, std::vector<Config>& configs) {
   std::vector<std::pair<std::string, Config>> bases;
   for (const std::string& file : options.configs) {
-    bases.emplace_back(std::filesystem::path(file).stem().string(), read_config(file));
+    bases.emplace_back(file, read_config(file));
   }
   if (bases.empty()) {
     bases.emplace_back("recorded", recorded);
@@ -182,7 +183,7 @@ void add_retime_command(CLI::App& app, ExitStatus& /*status*/) {
   command
       ->add_option("--fidelity", options->fidelity,
                    "recurrence: exact; sampled: an estimate, ten times as fast for a large frame")
-      ->check(CLI::IsMember({"recurrence", "sampled"}))
+      ->check(one_of({"recurrence", "sampled"}))
       ->capture_default_str();
   options->threads.add_to(*command, "Each times other machines");
   command->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/units/hi_z_bounds.hpp"
 
@@ -169,7 +170,8 @@ const Key& find_key(std::string_view name) {
   for (const Key& key : keys()) {
     names.push_back(key.name);
   }
-  throw OptionError(fmt::format("unknown configuration key '{}'; legal: {}", name, fmt::join(names, ", ")));
+  throw OptionError(fmt::format("unknown configuration key '{}'{}; legal: {}", name,
+                                did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::string text_of_node(const toml::node& node, const Key& key, const std::string& name) {
@@ -246,8 +248,8 @@ void set_config(Config& config, std::string_view key, std::string_view value) {
   const Key& found = find_key(key);
   const std::optional<int> parsed = parse_value(found.legal, value);
   if (!parsed) {
-    throw OptionError(
-        fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_text(found.legal)));
+    throw OptionError(fmt::format("configuration key '{}' is '{}'{}; legal: {}", key, value,
+                                  did_you_mean(value, found.legal.words), legal_text(found.legal)));
   }
   found.set(config, *parsed);
 }

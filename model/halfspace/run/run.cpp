@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -94,7 +95,8 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
 Fidelity fidelity_of(std::string_view name) {
   const auto* const found = std::ranges::find(kFidelityInfo, name, &FidelityInfo::name);
   if (found == kFidelityInfo.end()) {
-    throw OptionError(fmt::format("fidelity is '{}'; legal: {}", name, fidelity_names()));
+    throw OptionError(fmt::format("fidelity is '{}'{}; legal: {}", name,
+                                  did_you_mean(name, kFidelityInfo, &FidelityInfo::name), fidelity_names()));
   }
   return found->fidelity;
 }
