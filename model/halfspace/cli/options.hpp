@@ -59,12 +59,15 @@ struct InputOptions {
   void add_to(CLI::App& command);
   /// Takes several, which follow each other.
   void add_several_to(CLI::App& command);
-  [[nodiscard]] Camera camera() const;              ///< throws InputError
   [[nodiscard]] Frame frame() const;                ///< loaded and validated; throws InputError
   [[nodiscard]] std::vector<Frame> frames() const;  ///< all of them; throws InputError
 
  private:
   CLI::Option* add_input_to(CLI::App& command, const std::string& more);
+  /// Throws OptionError, too where an option of it is given and no INPUT is a mesh.
+  [[nodiscard]] Camera camera() const;
+
+  std::vector<CLI::Option*> of_meshes_;  ///< what only a mesh takes
 };
 
 /// --lod, --sort, --order, --prepass and --delay.
@@ -97,6 +100,8 @@ struct RtlOptions {
 
   void add_to(CLI::App& command);
   void add_folder_to(CLI::App& command);
+  /// Throws OptionError where one is given and the fidelity is not that of the RTL.
+  void check(Fidelity fidelity) const;
   /// Puts them where a run takes them. Throws InputError.
   void apply(RunOptions& run) const;
   /// Throws InputError.

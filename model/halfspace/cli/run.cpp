@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/exit_status.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_reference.hpp"
@@ -53,10 +55,7 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, !options.stalls.seed.empty(), "--seed", &FidelityInfo::packets);
   require(fidelity, options.timeline.wanted, "--timeline", &FidelityInfo::timeline);
   require(fidelity, !options.vcd.empty(), "--vcd", &FidelityInfo::vcd);
-  require(fidelity, !options.rtl.wave.empty(), "--wave", &FidelityInfo::rtl);
-  require(fidelity, !options.rtl.folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
-  require(fidelity, !options.rtl.seed.empty(), "--rtl-seed", &FidelityInfo::rtl);
-  require(fidelity, options.rtl.every_cycle, "--rtl-every-cycle", &FidelityInfo::rtl);
+  options.rtl.check(fidelity);
 }
 
 /// Refuses options that a reference rasterizer has no use for.
@@ -204,13 +203,8 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
   options->input.add_several_to(*command);
   options->what_if.add_to(*command);
   options->machine.add_to(*command);
-  std::vector<std::string> fidelities;
-  fidelities.reserve(kFidelityInfo.size());
-  for (const FidelityInfo& fidelity : kFidelityInfo) {
-    fidelities.emplace_back(fidelity.name);
-  }
   command->add_option("--fidelity", options->fidelity, "selects the timing engine")
-      ->check(CLI::IsMember(fidelities))
+      ->check(one_of_table(kFidelityInfo, &FidelityInfo::name))
       ->capture_default_str();
   add_reference_option(*command, options->reference);
   options->core.add_to(*command);
