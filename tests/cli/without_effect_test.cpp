@@ -29,7 +29,7 @@ TEST_CASE("the camera of a frame or of a synthetic frame is refused") {
   const std::string mesh = (place.path / "a.obj").string();
   const std::string record = " --out " + (place.path / "r").string();
   for (const std::string& input : {kCube, std::string("synthetic:one_triangle")}) {
-    for (const std::string camera : {"--size 64x64", "--eye 1,2,3", "--at 1,2,3", "--fov 60"}) {
+    for (const std::string camera : {"--size 64x64", "--eye 1,2,3", "--at 1,2,3", "--up 0,1,0", "--fov 60"}) {
       const std::string option = camera.substr(0, camera.find(' '));
       for (const std::string& command :
            {"run " + input, "info " + input, "ledger " + input, "record " + input + record,
@@ -42,7 +42,7 @@ TEST_CASE("the camera of a frame or of a synthetic frame is refused") {
   for (const std::string& command :
        {"run " + mesh, "info " + mesh, "ledger " + mesh, "record " + mesh + record}) {
     CAPTURE(command);
-    CHECK(place.run(command + " --eye 0,0,3 --at 0,0,0 --fov 60 --size 64x64").status == 0);
+    CHECK(place.run(command + " --eye 0,0,3 --at 0,0,0 --up 0,1,0 --fov 60 --size 64x64").status == 0);
   }
 }
 

@@ -112,9 +112,9 @@ bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-inline constexpr std::array<glm::vec3, 8> kCubeCorners{
-    glm::vec3(-1, -1, -1), glm::vec3(1, -1, -1), glm::vec3(1, 1, -1), glm::vec3(-1, 1, -1),
-    glm::vec3(-1, -1, 1),  glm::vec3(1, -1, 1),  glm::vec3(1, 1, 1),  glm::vec3(-1, 1, 1)};
+inline constexpr std::array<glm::dvec3, 8> kCubeCorners{
+    glm::dvec3(-1, -1, -1), glm::dvec3(1, -1, -1), glm::dvec3(1, 1, -1), glm::dvec3(-1, 1, -1),
+    glm::dvec3(-1, -1, 1),  glm::dvec3(1, -1, 1),  glm::dvec3(1, 1, 1),  glm::dvec3(-1, 1, 1)};
 inline constexpr std::array<std::array<std::uint32_t, 4>, 6> kCubeFaces{
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 4, 7, 3}, {1, 2, 6, 5}}};
 
@@ -148,7 +148,7 @@ inline std::string base64(std::string_view bytes) {
 /// The cube as binary: 96 bytes of positions, then 36 indices of 16 bits.
 inline std::string cube_buffer() {
   std::string out;
-  for (const glm::vec3& p : kCubeCorners) append(out, p);
+  for (const glm::dvec3& p : kCubeCorners) append(out, glm::vec3(p));
   for (const std::uint32_t index : cube_indices()) append(out, static_cast<std::uint16_t>(index));
   return out;
 }

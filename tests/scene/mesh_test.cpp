@@ -17,21 +17,21 @@ using namespace halfspace::test;
 namespace {
 
 /// The corners of all triangles, in order.
-std::vector<glm::vec3> corners(const Mesh& mesh) {
-  std::vector<glm::vec3> out;
+std::vector<glm::dvec3> corners(const Mesh& mesh) {
+  std::vector<glm::dvec3> out;
   for (const std::uint32_t index : mesh.indices) out.push_back(mesh.positions.at(index));
   return out;
 }
 
-std::vector<glm::vec3> cube_corners() {
-  std::vector<glm::vec3> out;
+std::vector<glm::dvec3> cube_corners() {
+  std::vector<glm::dvec3> out;
   for (const std::uint32_t index : cube_indices()) out.push_back(kCubeCorners.at(index));
   return out;
 }
 
 std::string obj_cube() {
   std::string out = "# cube\n";
-  for (const glm::vec3& p : kCubeCorners) out += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+  for (const glm::dvec3& p : kCubeCorners) out += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
   for (const auto& f : kCubeFaces)
     out += fmt::format("f {} {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1, f[3] + 1);
   return out;
@@ -50,13 +50,13 @@ std::string ply_cube(const std::string& format) {
   out += "element vertex 8\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n";
   out += "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
   if (format == "ascii") {
-    for (const glm::vec3& p : kCubeCorners) out += fmt::format("{} {} {} 255\n", p.x, p.y, p.z);
+    for (const glm::dvec3& p : kCubeCorners) out += fmt::format("{} {} {} 255\n", p.x, p.y, p.z);
     for (const auto& f : kCubeFaces) out += fmt::format("4 {} {} {} {}\n", f[0], f[1], f[2], f[3]);
     return out;
   }
   const bool big = format == "binary_big_endian";
-  for (const glm::vec3& p : kCubeCorners) {
-    for (int i = 0; i < 3; ++i) append_ordered(out, p[i], big);
+  for (const glm::dvec3& p : kCubeCorners) {
+    for (int i = 0; i < 3; ++i) append_ordered(out, static_cast<float>(p[i]), big);
     out += '\xFF';
   }
   for (const auto& f : kCubeFaces) {
@@ -115,8 +115,8 @@ TEST_CASE("OBJ: a part for each run of a material, points and lines counted") {
   CHECK(mesh.parts[2].name == "red");
   CHECK(mesh.parts[2].first_index == 9);
   CHECK(mesh.parts[2].index_count == 3);
-  CHECK(mesh.positions == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
-  CHECK(mesh.skipped == 2);
+  CHECK(mesh.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  CHECK(mesh.left_out == std::vector<std::string>{"2 points and lines"});
 }
 
 TEST_CASE("PLY: faces before vertices, other elements and lists are passed over, edges counted") {
@@ -125,13 +125,12 @@ TEST_CASE("PLY: faces before vertices, other elements and lists are passed over,
                 "ply\nformat ascii 1.0\nelement face 1\nproperty list uint8 int16 vertex_index\n"
                 "property uchar flag\nelement edge 2\nproperty int vertex1\nproperty int vertex2\n"
                 "element vertex 3\nproperty list uchar double w\nproperty double z\nproperty int x\n"
-                "property float32 y\nend_header\n3 2 1 0 9\n0 1\n1 2\n2 7 7 0.5 1 2\n0 nan 1 1\n"
+                "property float32 y\nend_header\n3 2 1 0 9\n0 1\n1 2\n2 7 7 0.5 1 2\n0 3 1 1\n"
                 "1 3 1e99 -1 -1");
   CHECK(mesh.indices == std::vector<std::uint32_t>{2, 1, 0});
-  CHECK(mesh.positions[0] == glm::vec3(1, 2, 0.5f));
-  CHECK(std::isnan(mesh.positions[1].z));
-  CHECK(std::isinf(mesh.positions[2].z));
-  CHECK(mesh.skipped == 2);
+  CHECK(mesh.positions[0] == glm::dvec3(1, 2, 0.5f));
+  CHECK(mesh.positions[2] == glm::dvec3(-1, -1, 1e99));
+  CHECK(mesh.left_out == std::vector<std::string>{"2 edges"});
 }
 
 TEST_CASE("glTF: transforms go from the node to the root") {
@@ -143,7 +142,7 @@ TEST_CASE("glTF: transforms go from the node to the root") {
   json["nodes"][0]["rotation"] = {0, 0, half, half};  // a quarter turn about z: x to y, y to -x
   const Mesh mesh = read_json(json);
   // (1, 1, 1) -> scale (1, 2, 3) -> turn (-2, 1, 3) -> move (8, 1, 3) -> the parent (8, 1, 8)
-  const glm::vec3 p = mesh.positions.at(6);
+  const glm::dvec3 p = mesh.positions.at(6);
   CHECK(p.x == Approx(8));
   CHECK(p.y == Approx(1));
   CHECK(p.z == Approx(8));
@@ -160,8 +159,8 @@ TEST_CASE("glTF: instances are written out, one part for each primitive of each 
   REQUIRE(mesh.parts.size() == 2);
   CHECK(mesh.parts[1].name == "box, wood");
   CHECK(mesh.parts[1].first_index == 36);
-  std::vector<glm::vec3> expected = cube_corners();
-  for (const glm::vec3 corner : cube_corners()) expected.push_back(corner + glm::vec3(5, 0, 0));
+  std::vector<glm::dvec3> expected = cube_corners();
+  for (const glm::dvec3 corner : cube_corners()) expected.push_back(corner + glm::dvec3(5, 0, 0));
   CHECK(corners(mesh) == expected);
 }
 
@@ -189,14 +188,14 @@ TEST_CASE("glTF: triangle lists, strips and fans, points and lines counted") {
   for (int mode = 0; mode < 4; ++mode) {
     json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", mode}});
   }
-  CHECK(read_json(json).skipped == 4);
+  CHECK(read_json(json).left_out == std::vector<std::string>{"4 primitives of points or lines"});
 }
 
 TEST_CASE("glTF: indices of 8, 16 and 32 bits, interleaved positions, shared and outside buffers") {
   const TempFolder folder;
   std::string buffer;
-  for (const glm::vec3& p : kCubeCorners) {
-    append(buffer, p);
+  for (const glm::dvec3& p : kCubeCorners) {
+    append(buffer, glm::vec3(p));
     buffer += "12345678";
   }
   const int size = GENERATE(1, 2, 4);
@@ -236,4 +235,26 @@ TEST_CASE("glTF: images are never opened") {
       R"([{"uri": "missing.png"}, {"uri": "data:image/png;base64,AAAA"}, {"bufferView": 1, "mimeType": "image/png"}])");
   json["textures"] = {{{"source", 0}}};
   CHECK(corners(read_json(json)) == cube_corners());
+}
+
+TEST_CASE(
+    "faces of fewer than three corners, and vertices that are not finite, are left out and counted alike") {
+  // Faces 0 1 2, then one with the infinite vertex 3, one of two corners and one of none.
+  const std::vector<std::string> expected{"1 faces with a vertex that is not finite",
+                                          "2 faces with fewer than three corners",
+                                          "1 vertices that are not finite"};
+  const Mesh ply = read_text("a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+                             "end_header\n0 0 0\n1 0 0\n1 1 0\n0 inf 0\n3 0 1 2\n4 0 1 2 3\n2 0 1\n0\n");
+  CHECK(ply.indices == std::vector<std::uint32_t>{0, 1, 2});
+  CHECK(ply.left_out == expected);
+}
+
+TEST_CASE("positions are as exact as the file's numbers") {
+  const Mesh ply = read_text("a.ply",
+                             "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                             "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                             "end_header\n388096.1 3948996.3 0\n1 0 0\n1 1 0\n3 0 1 2\n");
+  CHECK(ply.positions[0] == glm::dvec3(388096.1, 3948996.3, 0));
 }

@@ -38,8 +38,8 @@ std::vector<Number> parse_list(const std::string& text, char separator) {
   }
 }
 
-glm::vec3 parse_point(const char* option, const std::string& text) {
-  const std::vector<float> v = parse_list<float>(text, ',');
+glm::dvec3 parse_point(const char* option, const std::string& text) {
+  const std::vector<double> v = parse_list<double>(text, ',');
   if (v.size() != 3) {
     throw OptionError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
   }
@@ -135,14 +135,17 @@ CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& mo
                           kFrameExtensions, kMeshExtensions, kPackedExtensions, kSyntheticPrefix) +
                   more)
           ->required();
-  of_meshes_ = {command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
-                    ->type_name("X,Y,Z"),
-                command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
-                    ->type_name("X,Y,Z"),
-                command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")
-                    ->capture_default_str(),
-                command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")
-                    ->type_name("WxH")};
+  of_meshes_ = {
+      command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--up", up, "mesh: direction that points up in the picture (default: 0,1,0)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")
+          ->capture_default_str(),
+      command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")
+          ->type_name("WxH")};
   return input;
 }
 
@@ -171,6 +174,9 @@ Camera InputOptions::camera() const {
   }
   if (!at.empty()) {
     camera.at = parse_point("--at", at);
+  }
+  if (!up.empty()) {
+    camera.up = parse_point("--up", up);
   }
   if (!size.empty()) {
     const std::vector<std::uint32_t> v = parse_list<std::uint32_t>(size, 'x');

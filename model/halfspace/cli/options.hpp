@@ -53,8 +53,9 @@ struct InputOptions {
   std::vector<std::string> paths;  ///< one, or more where several are taken
   std::string eye;
   std::string at;
+  std::string up;
   std::string size;
-  float fov_degrees = 60;
+  double fov_degrees = 60;
 
   void add_to(CLI::App& command);
   /// Takes several, which follow each other.

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/ext/quaternion_double.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
@@ -26,8 +28,9 @@ constexpr double kFill = 0.9;          // of the half screen, at the vertex that
 constexpr double kDepthMargin = 1e-3;  // relative, of near and far
 constexpr double kLeastNearOverFar = 1e-4;
 constexpr double kParallel = 0.9999;  // cosine from which a view direction counts as straight up or down
+constexpr double kMostParallel = 1 - 1e-12;  // ... and from which a given up tells no direction
 
-bool is_finite(glm::vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool is_finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 std::string to_text(glm::dvec3 p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
@@ -44,7 +47,7 @@ void check_camera(const Camera& camera, std::string_view name) {
   };
   check_size("width", camera.width);
   check_size("height", camera.height);
-  const auto check_point = [&](std::string_view field, const std::optional<glm::vec3>& point) {
+  const auto check_point = [&](std::string_view field, const std::optional<glm::dvec3>& point) {
     if (point && !is_finite(*point)) {
       throw InputError(
           fmt::format("{}: camera {} is {}; legal: finite numbers", name, field, to_text(*point)));
@@ -52,6 +55,11 @@ void check_camera(const Camera& camera, std::string_view name) {
   };
   check_point("eye", camera.eye);
   check_point("at", camera.at);
+  check_point("up", camera.up);
+  if (camera.up && !(glm::length(*camera.up) > 0)) {
+    throw InputError(
+        fmt::format("{}: camera up is {}; legal: a vector that is not 0", name, to_text(*camera.up)));
+  }
 }
 
 void check_mesh(const Mesh& mesh, std::string_view name) {
@@ -100,15 +108,25 @@ glm::dvec3 box_center(std::span<const glm::dvec3> points) {
   return (low + high) / 2.0;
 }
 
-/// y, or -z for a camera that looks straight up or down.
-glm::dvec3 up_for(glm::dvec3 backward) {
+glm::dvec3 up_for(const Camera& camera, glm::dvec3 backward) {
+  if (camera.up) return glm::normalize(*camera.up);
   return std::abs(backward.y) > kParallel ? glm::dvec3(0, 0, -1) : glm::dvec3(0, 1, 0);
 }
 
+/// From the front right, a little above, of a mesh whose up is the camera's: y turned there the shortest way.
+glm::dvec3 default_backward(const Camera& camera) {
+  const glm::dvec3 backward = glm::normalize(kFromFrontRightAbove);
+  if (!camera.up) return backward;
+  constexpr glm::dvec3 kY{0, 1, 0};
+  const glm::dvec3 up = glm::normalize(*camera.up);
+  if (up.y < -kParallel) return {-backward.x, -backward.y, backward.z};  // any half turn is the shortest
+  return glm::normalize(glm::dquat(1 + glm::dot(kY, up), glm::cross(kY, up))) * backward;
+}
+
 /// How far along `backward` the eye must be from `at` to see every point; above 0.
-double fitting_distance(std::span<const glm::dvec3> points, glm::dvec3 at, glm::dvec3 backward, double tan_x,
-                        double tan_y) {
-  const glm::dvec3 right = glm::normalize(glm::cross(up_for(backward), backward));
+double fitting_distance(std::span<const glm::dvec3> points, glm::dvec3 at, glm::dvec3 backward,
+                        glm::dvec3 above, double tan_x, double tan_y) {
+  const glm::dvec3 right = glm::normalize(glm::cross(above, backward));
   const glm::dvec3 up = glm::cross(backward, right);
   double distance = 0;
   for (const glm::dvec3& point : points) {
@@ -119,19 +137,27 @@ double fitting_distance(std::span<const glm::dvec3> points, glm::dvec3 at, glm::
   return distance > 0 ? distance * (1 + kDepthMargin) : 1;
 }
 
-/// World to clip space, -w <= z <= w, near and far around the points.
-glm::dmat4 view_projection(const Camera& camera, std::span<const glm::dvec3> points, std::string_view name) {
-  const double fov_y = glm::radians(static_cast<double>(camera.fov_degrees));
+/// World to clip space, -w <= z <= w: first the eye is subtracted, which is exact or nearly so however far
+/// both are from the origin, then the rest is applied.
+struct View {
+  glm::dvec3 eye;
+  glm::dmat4 from_eye;
+};
+
+/// Near and far are around the points.
+View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::string_view name) {
+  const double fov_y = glm::radians(camera.fov_degrees);
   const double aspect = static_cast<double>(camera.width) / camera.height;
   const double tan_y = std::tan(fov_y / 2);
 
-  const glm::dvec3 at = camera.at ? glm::dvec3(*camera.at) : box_center(points);
+  const glm::dvec3 at = camera.at ? *camera.at : box_center(points);
   glm::dvec3 eye;
   if (camera.eye) {
     eye = *camera.eye;
   } else {
-    const glm::dvec3 backward = glm::normalize(kFromFrontRightAbove);
-    eye = at + backward * fitting_distance(points, at, backward, tan_y * aspect, tan_y);
+    const glm::dvec3 backward = default_backward(camera);
+    eye = at +
+          backward * fitting_distance(points, at, backward, up_for(camera, backward), tan_y * aspect, tan_y);
   }
   const double distance = glm::length(eye - at);
   if (!(distance > 0)) {
@@ -139,6 +165,11 @@ glm::dmat4 view_projection(const Camera& camera, std::span<const glm::dvec3> poi
         fmt::format("{}: camera eye and at are both {}; legal: two different points", name, to_text(at)));
   }
   const glm::dvec3 backward = (eye - at) / distance;
+  const glm::dvec3 up = up_for(camera, backward);
+  if (std::abs(glm::dot(up, backward)) > kMostParallel) {
+    throw InputError(fmt::format("{}: camera up {} is along its line of sight; legal: across it", name,
+                                 to_text(*camera.up)));
+  }
 
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = -nearest;
@@ -154,12 +185,12 @@ glm::dmat4 view_projection(const Camera& camera, std::span<const glm::dvec3> poi
   }
   const double far = farthest * (1 + kDepthMargin);
   const double near = std::max(nearest * (1 - kDepthMargin), far * kLeastNearOverFar);
-  return glm::perspectiveRH_NO(fov_y, aspect, near, far) * glm::lookAtRH(eye, at, up_for(backward));
+  return {eye, glm::perspectiveRH_NO(fov_y, aspect, near, far) * glm::lookAtRH(glm::dvec3(0), -backward, up)};
 }
 
-glm::vec4 to_clip(const glm::dmat4& matrix, glm::vec3 position, std::string_view name) {
+glm::vec4 to_clip(const View& view, glm::dvec3 position, std::string_view name) {
   if (!is_finite(position)) return glm::vec4(std::numeric_limits<float>::quiet_NaN());
-  const glm::dvec4 clip = matrix * glm::dvec4(position, 1);
+  const glm::dvec4 clip = view.from_eye * glm::dvec4(position - view.eye, 1);
   constexpr double kMost = std::numeric_limits<float>::max();
   for (int i = 0; i < 4; ++i) {
     if (!(std::abs(clip[i]) <= kMost)) {
@@ -196,10 +227,11 @@ Command draw_command(const Camera& camera) {
 Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name) {
   check_camera(camera, name);
   check_mesh(mesh, name);
-  const glm::dmat4 matrix = view_projection(camera, used_positions(mesh, name), name);
+  const View view = view_of(camera, used_positions(mesh, name), name);
 
   Frame frame;
   frame.name = name;
+  frame.left_out = mesh.left_out;
   frame.targets.push_back({.width = camera.width,
                            .height = camera.height,
                            .samples = 1,
@@ -225,7 +257,7 @@ Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view n
       if (part_of[index] != i) {
         part_of[index] = i;
         vertex_of[index] = draw.vertex_count++;
-        frame.vertices.push_back(to_clip(matrix, mesh.positions[index], name));
+        frame.vertices.push_back(to_clip(view, mesh.positions[index], name));
       }
       frame.indices.push_back(vertex_of[index]);
     }

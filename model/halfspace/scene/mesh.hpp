@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,20 +22,32 @@ struct MeshPart {
   std::uint32_t index_count = 0;  ///< a multiple of 3, above 0
 };
 
+/// A camera that stands in the mesh's file: it looks along its own -z, with y up.
+struct MeshCamera {
+  std::string name;
+  glm::dmat4 world{1};           ///< its own space to that of the mesh
+  std::optional<double> fov_y;   ///< radians; none: a parallel projection
+  std::optional<double> aspect;  ///< width / height, of a perspective; none: the picture's
+  glm::dvec2 half_size{1};       ///< of a parallel projection, in its own units
+  double near = 0;               ///< above 0 for a perspective
+  std::optional<double> far;     ///< none: infinite
+};
+
 /// Positions in the file's own units, y up; three indices a triangle; the parts cover the indices in order.
 struct Mesh {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> indices;  ///< below positions.size()
   std::vector<MeshPart> parts;
-  std::uint64_t skipped = 0;  ///< points and lines of the file: OBJ statements, PLY edges, glTF primitives
+  std::vector<MeshCamera> cameras;
+  std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "3 points and lines"
 };
 
 /// The mesh in an .obj, .ply, .gltf or .glb file (by extension, as load() takes it; its bytes may be packed
 /// by gzip or xz). Polygons are triangulated; a glTF scene's instances are written out. Materials, images and
-/// all vertex attributes but the position are passed over. No material or image file is opened; buffers of a
-/// glTF file are only from its own folder or below. Throws InputError when the file cannot be read, is
-/// damaged or contradicts itself, has no triangle, or has more than kMaxMeshVertices positions or
-/// kMaxMeshTriangles triangles.
+/// all vertex attributes but the position are passed over; whatever else of the file is not in the mesh is
+/// listed in `left_out`. No material or image file is opened; buffers of a glTF file are only from its own
+/// folder or below. Throws InputError when the file cannot be read, is damaged or contradicts itself, has no
+/// triangle, or has more than kMaxMeshVertices positions or kMaxMeshTriangles triangles.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace halfspace

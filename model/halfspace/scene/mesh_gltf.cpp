@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <glm/ext/quaternion_double.hpp>
@@ -14,7 +14,6 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
-#include <limits>
 #include <new>
 #include <string>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/gltf_check.hpp"
+#include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
 #include "halfspace/scene/quote.hpp"
 
@@ -107,7 +107,8 @@ struct View {
 
 class SceneReader {
  public:
-  SceneReader(const tinygltf::Model& model, std::string_view name) : model_(model), name_(name) {}
+  SceneReader(const tinygltf::Model& model, std::string_view name)
+      : model_(model), name_(name), builder_(name) {}
 
   Mesh run() {
     check_extensions();
@@ -133,7 +134,7 @@ class SceneReader {
         open.push_back({*child, world});
       }
     }
-    return finish_mesh(std::move(mesh_), name_);
+    return std::move(builder_).finish();
   }
 
  private:
@@ -212,11 +213,11 @@ class SceneReader {
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const tinygltf::Primitive& primitive = mesh.primitives[i];
       if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode <= TINYGLTF_MODE_LINE_STRIP) {
-        ++mesh_.skipped;
+        builder_.leave_out("primitives of points or lines");
         continue;
       }
       add_primitive(primitive, world);
-      close_part(mesh_, part_name(mesh, primitive, index, i));
+      builder_.end_part(part_name(mesh, primitive, index, i));
     }
   }
 
@@ -244,24 +245,18 @@ class SceneReader {
     const auto [low, high] = std::minmax_element(corners.begin(), corners.end());
     const std::uint32_t first = *low;
     const std::uint64_t used = std::uint64_t{*high} - first + 1;
-    check_mesh_size(name_, mesh_.positions.size() + used, (mesh_.indices.size() + corners.size()) / 3);
-    const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
+    builder_.check_room(used, corners.size() / 3);
+    const std::uint32_t base = builder_.vertex_count();
     for (std::uint64_t i = 0; i < used; ++i) {
       glm::vec3 local;
       std::memcpy(&local, positions.data + (first + i) * positions.stride, kPositionSize);
-      mesh_.positions.push_back(to_float(world * glm::dvec4(local, 1)));
+      builder_.add_vertex(glm::dvec3(world * glm::dvec4(local, 1)));
     }
-    for (const std::uint32_t corner : corners) mesh_.indices.push_back(base + (corner - first));
-  }
-
-  static glm::vec3 to_float(glm::dvec4 p) {
-    constexpr double kMost = std::numeric_limits<float>::max();
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    glm::vec3 out;
-    for (int i = 0; i < 3; ++i) {
-      out[i] = std::abs(p[i]) > kMost ? (p[i] > 0 ? kInfinity : -kInfinity) : static_cast<float>(p[i]);
+    for (std::size_t i = 0; i < corners.size(); i += 3) {
+      std::array<std::uint32_t, 3> face{};
+      for (std::size_t c = 0; c < 3; ++c) face[c] = base + (corners[i + c] - first);
+      builder_.add_face(face);
     }
-    return out;
   }
 
   /// Three corners a triangle, each below `vertices`.
@@ -325,7 +320,7 @@ class SceneReader {
            index, indices.type, indices.componentType, TINYGLTF_TYPE_SCALAR);
     }
     const View bytes = view(indices, index, size);
-    check_mesh_size(name_, 0, bytes.count / 3);
+    builder_.check_room(0, bytes.count / 3);
     std::vector<std::uint32_t> out(bytes.count);
     for (std::size_t i = 0; i < out.size(); ++i) {
       std::memcpy(&out[i], bytes.data + i * bytes.stride, size);  // little-endian, as this machine
@@ -367,7 +362,7 @@ class SceneReader {
 
   const tinygltf::Model& model_;
   std::string_view name_;
-  Mesh mesh_;
+  MeshBuilder builder_;
 };
 
 }  // namespace

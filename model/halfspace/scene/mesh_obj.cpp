@@ -1,5 +1,6 @@
 // Wavefront OBJ by tinyobjloader, behind a check of what it would pass over (docs/adr/0003-mesh-readers.md).
 #define TINYOBJLOADER_IMPLEMENTATION
+#define TINYOBJLOADER_USE_DOUBLE
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
@@ -16,9 +17,9 @@
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
 #include "halfspace/scene/quote.hpp"
-#include "halfspace/scene/triangulate.hpp"
 
 namespace halfspace {
 namespace {
@@ -45,10 +46,9 @@ bool to_number(std::string_view word, T& value) {
 /// an index to 32 bits, ends a line at a zero byte and does not know continued lines.
 class ObjCheck {
  public:
-  explicit ObjCheck(std::string_view name) : name_(name) {}
+  ObjCheck(std::string_view name, MeshBuilder& builder) : name_(name), builder_(builder) {}
 
-  /// The number of point and line statements.
-  std::uint64_t run(std::string_view text) {
+  void run(std::string_view text) {
     while (!text.empty()) {
       ++line_;
       const std::size_t end = text.find_first_of("\r\n");
@@ -56,7 +56,6 @@ class ObjCheck {
       if (end == std::string_view::npos) break;
       text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
     }
-    return skipped_;
   }
 
  private:
@@ -75,15 +74,15 @@ class ObjCheck {
     if (line.ends_with('\\')) fail("ends in \\; legal: a statement on one line");
     if (keyword == "v") check_vertex(line);
     if (keyword == "f") check_face(line);
-    if (keyword == "p" || keyword == "l") ++skipped_;
+    if (keyword == "p" || keyword == "l") builder_.leave_out("points and lines");
   }
 
   void check_vertex(std::string_view line) {
-    check_mesh_size(name_, ++vertices_, 0);
+    builder_.check_room(static_cast<std::uint64_t>(++vertices_), 0);
     for (int i = 0; i < 3; ++i) {
       const std::string_view word = next_word(line);
       double value = 0;
-      if (!to_number(word, value) || !(std::abs(value) <= std::numeric_limits<float>::max())) {
+      if (!to_number(word, value) || !std::isfinite(value)) {
         fail("coordinate {} is {}; legal: three finite numbers", i, quote(word));
       }
     }
@@ -104,16 +103,16 @@ class ObjCheck {
       }
       ++corners;
     }
-    if (corners < 3) fail("face has {} corners; legal: 3 or more", corners);
+    if (corners < 3) return;
     triangles_ += corners - 2;
-    check_mesh_size(name_, 0, triangles_);
+    builder_.check_room(0, triangles_);
   }
 
   std::string_view name_;
   std::uint64_t line_ = 0;
   std::int64_t vertices_ = 0;
   std::uint64_t triangles_ = 0;
-  std::uint64_t skipped_ = 0;
+  MeshBuilder& builder_;
 };
 
 /// Text as a stream to read from, without a copy.
@@ -128,18 +127,18 @@ class TextBuffer : public std::streambuf {
 /// What the callbacks build.
 struct Builder {
   std::string_view name;
-  Mesh mesh;
+  MeshBuilder& mesh;
   std::string material;
   std::vector<std::uint32_t> polygon;
 };
 
-void add_vertex(void* user, float x, float y, float z, float /*w*/) {
-  static_cast<Builder*>(user)->mesh.positions.emplace_back(x, y, z);
+void add_vertex(void* user, double x, double y, double z, double /*w*/) {
+  static_cast<Builder*>(user)->mesh.add_vertex({x, y, z});
 }
 
 void add_face(void* user, tinyobj::index_t* corners, int count) {
   auto& builder = *static_cast<Builder*>(user);
-  const auto vertices = static_cast<std::int64_t>(builder.mesh.positions.size());
+  const auto vertices = std::int64_t{builder.mesh.vertex_count()};
   builder.polygon.clear();
   for (int i = 0; i < count; ++i) {
     const std::int64_t number = corners[i].vertex_index;
@@ -150,16 +149,13 @@ void add_face(void* user, tinyobj::index_t* corners, int count) {
     }
     builder.polygon.push_back(static_cast<std::uint32_t>(vertex));
   }
-  if (!triangulate(builder.polygon, builder.mesh.positions, builder.mesh.indices)) {
-    throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}",
-                                 builder.name, count, kMaxConcaveCorners));
-  }
+  builder.mesh.add_face(builder.polygon);
 }
 
 void use_material(void* user, const char* material, int /*id*/) {
   auto& builder = *static_cast<Builder*>(user);
   if (builder.material == material) return;
-  close_part(builder.mesh, builder.material);
+  builder.mesh.end_part(builder.material);
   builder.material = material;
 }
 
@@ -167,9 +163,9 @@ void use_material(void* user, const char* material, int /*id*/) {
 
 Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  Builder builder;
-  builder.name = name;
-  builder.mesh.skipped = ObjCheck(name).run(text);
+  MeshBuilder mesh(name);
+  ObjCheck(name, mesh).run(text);
+  Builder builder{.name = name, .mesh = mesh, .material = {}, .polygon = {}};
 
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = add_vertex;
@@ -181,8 +177,8 @@ Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name) {
   if (!tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error)) {
     throw InputError(fmt::format("{}: not read as OBJ; legal: a Wavefront OBJ file", name));
   }
-  close_part(builder.mesh, builder.material);
-  return finish_mesh(std::move(builder.mesh), name);
+  mesh.end_part(builder.material);
+  return std::move(mesh).finish();
 }
 
 }  // namespace halfspace

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
 #include "halfspace/scene/quote.hpp"
-#include "halfspace/scene/triangulate.hpp"
 
 namespace halfspace {
 namespace {
@@ -310,14 +310,6 @@ class Body {
   std::string_view bytes_;  // what is left of a binary body
 };
 
-/// float, where values beyond its range become infinite.
-float to_float(double value) {
-  constexpr double kMost = std::numeric_limits<float>::max();
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  if (std::abs(value) > kMost) return value > 0 ? kInfinity : -kInfinity;
-  return static_cast<float>(value);
-}
-
 /// Faces as they stand in the file: they may come before the vertices.
 struct Faces {
   std::vector<std::uint32_t> sizes;
@@ -327,7 +319,7 @@ struct Faces {
 class BodyParser {
  public:
   BodyParser(std::string_view name, const Header& header, std::string_view body)
-      : name_(name), header_(header), body_(name, *header.encoding, body) {}
+      : name_(name), header_(header), body_(name, *header.encoding, body), builder_(name) {}
 
   Mesh run() {
     for (const Element& element : header_.elements) {
@@ -340,13 +332,13 @@ class BodyParser {
       } else if (element.name == "face") {
         parse_faces(element);
       } else {
-        if (element.name == "edge") mesh_.skipped += element.count;
+        if (element.name == "edge") builder_.leave_out("edges", element.count);
         pass_over(element);
       }
     }
     cut_up_faces();
-    close_part(mesh_, "face");
-    return finish_mesh(std::move(mesh_), name_);
+    builder_.end_part("face");
+    return std::move(builder_).finish();
   }
 
  private:
@@ -376,25 +368,24 @@ class BodyParser {
   }
 
   void parse_vertices(const Element& element) {
-    if (!mesh_.positions.empty()) refuse(name_, "header has a second element \"vertex\"; legal: one");
+    if (builder_.vertex_count() > 0) refuse(name_, "header has a second element \"vertex\"; legal: one");
     const std::array<std::size_t, 3> axes{find(element, "x", false), find(element, "y", false),
                                           find(element, "z", false)};
     if (*std::max_element(axes.begin(), axes.end()) == element.properties.size()) {
       refuse(name_, "element \"vertex\" lacks x, y or z; legal: all three, not lists");
     }
-    check_mesh_size(name_, element.count, 0);
-    mesh_.positions.reserve(element.count);
+    builder_.reserve_vertices(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      glm::vec3 position{0};
+      glm::dvec3 position{0};
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const auto* const axis = std::find(axes.begin(), axes.end(), p);
         if (axis == axes.end()) {
           pass_over(element.properties[p]);
         } else {
-          position[static_cast<int>(axis - axes.begin())] = to_float(body_.next(element.properties[p].type));
+          position[static_cast<int>(axis - axes.begin())] = body_.next(element.properties[p].type);
         }
       }
-      mesh_.positions.push_back(position);
+      builder_.add_vertex(position);
     }
   }
 
@@ -413,9 +404,8 @@ class BodyParser {
           continue;
         }
         const std::uint32_t count = next_count(property);
-        if (count < 3) refuse(name_, "face {} has {} corners; legal: 3 or more", i, count);
-        triangles += count - 2;
-        check_mesh_size(name_, 0, triangles);
+        if (count > 2) triangles += count - 2;
+        builder_.check_room(0, triangles);
         faces_.sizes.push_back(count);
         for (std::uint32_t c = 0; c < count; ++c) {
           faces_.corners.push_back(static_cast<std::uint32_t>(
@@ -431,21 +421,18 @@ class BodyParser {
       const auto polygon = std::span(faces_.corners).subspan(first, faces_.sizes[i]);
       first += polygon.size();
       for (const std::uint32_t corner : polygon) {
-        if (corner >= mesh_.positions.size()) {
-          refuse(name_, "face {} has vertex {}; legal: below {}", i, corner, mesh_.positions.size());
+        if (corner >= builder_.vertex_count()) {
+          refuse(name_, "face {} has vertex {}; legal: below {}", i, corner, builder_.vertex_count());
         }
       }
-      if (!triangulate(polygon, mesh_.positions, mesh_.indices)) {
-        refuse(name_, "face {} is not convex and has {} corners; legal: at most {}", i, polygon.size(),
-               kMaxConcaveCorners);
-      }
+      builder_.add_face(polygon);
     }
   }
 
   std::string_view name_;
   const Header& header_;
   Body body_;
-  Mesh mesh_;
+  MeshBuilder builder_;
   Faces faces_;
 };
 

@@ -17,12 +17,12 @@ double cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 
 /// The polygon seen along its normal, so that it winds counter-clockwise; empty when it has no normal.
 std::vector<glm::dvec2> flatten(std::span<const std::uint32_t> polygon,
-                                std::span<const glm::vec3> positions) {
+                                std::span<const glm::dvec3> positions) {
   const glm::dvec3 origin = positions[polygon[0]];
   glm::dvec3 normal{0};  // Newell's: exact for a plane polygon, an average otherwise
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 a = glm::dvec3(positions[polygon[i]]) - origin;
-    const glm::dvec3 b = glm::dvec3(positions[polygon[(i + 1) % polygon.size()]]) - origin;
+    const glm::dvec3 a = positions[polygon[i]] - origin;
+    const glm::dvec3 b = positions[polygon[(i + 1) % polygon.size()]] - origin;
     normal += glm::cross(a, b);
   }
   const glm::dvec3 size = glm::abs(normal);
@@ -35,7 +35,7 @@ std::vector<glm::dvec2> flatten(std::span<const std::uint32_t> polygon,
   std::vector<glm::dvec2> points;
   points.reserve(polygon.size());
   for (const std::uint32_t corner : polygon) {
-    const glm::dvec3 p = glm::dvec3(positions[corner]) - origin;
+    const glm::dvec3 p = positions[corner] - origin;
     points.emplace_back(p[u], p[v]);
   }
   return points;
@@ -73,7 +73,7 @@ bool is_ear(std::span<const glm::dvec2> points, std::span<const std::uint32_t> r
 
 }  // namespace
 
-bool triangulate(std::span<const std::uint32_t> polygon, std::span<const glm::vec3> positions,
+bool triangulate(std::span<const std::uint32_t> polygon, std::span<const glm::dvec3> positions,
                  std::vector<std::uint32_t>& triangles) {
   const auto fan = [&] {
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {

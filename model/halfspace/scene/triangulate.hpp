@@ -15,7 +15,7 @@ inline constexpr std::size_t kMaxConcaveCorners = 1024;
 /// The polygon has 3 or more corners, each below positions.size(). A convex or degenerate polygon becomes a
 /// fan around its first corner; another loses one ear at a time, seen along its normal. Returns false,
 /// appending nothing, when the polygon is not convex and has more than kMaxConcaveCorners corners.
-[[nodiscard]] bool triangulate(std::span<const std::uint32_t> polygon, std::span<const glm::vec3> positions,
+[[nodiscard]] bool triangulate(std::span<const std::uint32_t> polygon, std::span<const glm::dvec3> positions,
                                std::vector<std::uint32_t>& triangles);
 
 }  // namespace halfspace

@@ -50,6 +50,7 @@ void append(Frame& all, const Frame& next) {
   }
   all.vertices.insert(all.vertices.end(), next.vertices.begin(), next.vertices.end());
   all.indices.insert(all.indices.end(), next.indices.begin(), next.indices.end());
+  all.left_out.insert(all.left_out.end(), next.left_out.begin(), next.left_out.end());
 }
 
 }  // namespace

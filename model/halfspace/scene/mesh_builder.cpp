@@ -1,0 +1,93 @@
+#include "halfspace/scene/mesh_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/triangulate.hpp"
+
+namespace halfspace {
+namespace {
+
+bool is_finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+}  // namespace
+
+void MeshBuilder::check_room(std::uint64_t more_vertices, std::uint64_t more_triangles) const {
+  const auto check = [&](std::string_view what, std::uint64_t have, std::uint64_t more, std::uint64_t most) {
+    if (more > most - have) {
+      throw InputError(
+          fmt::format("{}: mesh has {} {} or more; legal: at most {}", name_, have + more, what, most));
+    }
+  };
+  check("vertices", mesh_.positions.size(), more_vertices, kMaxMeshVertices);
+  check("triangles", mesh_.indices.size() / 3, more_triangles, kMaxMeshTriangles);
+}
+
+void MeshBuilder::reserve_vertices(std::uint64_t count) {
+  check_room(count, 0);
+  mesh_.positions.reserve(mesh_.positions.size() + count);
+}
+
+void MeshBuilder::add_vertex(glm::dvec3 position) {
+  if (mesh_.positions.size() == kMaxMeshVertices) check_room(1, 0);
+  if (!is_finite(position)) ++not_finite_;
+  mesh_.positions.push_back(position);
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
+  if (corners.size() < 3) {
+    leave_out("faces with fewer than three corners");
+    return;
+  }
+  if (not_finite_ > 0 && !std::ranges::all_of(corners, [&](std::uint32_t corner) {
+        return is_finite(mesh_.positions[corner]);
+      })) {
+    leave_out("faces with a vertex that is not finite");
+    return;
+  }
+  check_room(0, corners.size() - 2);
+  if (corners.size() == 3) {
+    mesh_.indices.insert(mesh_.indices.end(), corners.begin(), corners.end());
+    return;
+  }
+  if (!triangulate(corners, mesh_.positions, mesh_.indices)) {
+    throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
+                                 corners.size(), kMaxConcaveCorners));
+  }
+}
+
+void MeshBuilder::end_part(std::string part_name) {
+  const auto end = static_cast<std::uint32_t>(mesh_.indices.size());
+  const std::uint32_t begin =
+      mesh_.parts.empty() ? 0 : mesh_.parts.back().first_index + mesh_.parts.back().index_count;
+  if (begin != end) mesh_.parts.push_back({std::move(part_name), begin, end - begin});
+}
+
+void MeshBuilder::leave_out(std::string_view what, std::uint64_t count) {
+  if (count == 0) return;
+  const auto found = left_out_.find(what);
+  if (found == left_out_.end()) {
+    left_out_.emplace(what, count);
+  } else {
+    found->second += count;
+  }
+}
+
+Mesh MeshBuilder::finish() && {
+  leave_out("vertices that are not finite", not_finite_);
+  for (const auto& [what, count] : left_out_) mesh_.left_out.push_back(fmt::format("{} {}", count, what));
+  if (mesh_.indices.empty()) {
+    std::string also;
+    for (const std::string& text : mesh_.left_out)
+      also += fmt::format("{} {}", also.empty() ? ", without" : ",", text);
+    throw InputError(fmt::format("{}: mesh has {} vertices and 0 triangles{}; legal: 1 triangle or more",
+                                 name_, mesh_.positions.size(), also));
+  }
+  return std::move(mesh_);
+}
+
+}  // namespace halfspace
