@@ -26,9 +26,10 @@ struct Camera {
 /// of the mesh: depth test LESS with write, no culling, clip volume -w <= z <= w, window y down. Near and far
 /// enclose the mesh. Positions stay double until clip space: a mesh far from the origin gives the picture of
 /// the same mesh at the origin. Those that are not finite stay in (their triangles are dropped when drawn)
-/// but do not count for the bounding box. Throws InputError when the field of view or a size is out of range,
-/// eye, at or up is not finite, eye and at are the same, up is 0 or along the line of sight, no position of
-/// the mesh is finite, or the mesh is too far away or too large for floats.
+/// but do not count for the bounding box. Throws OptionError when the field of view or a size is out of
+/// range, eye, at or up is not finite, eye and at are the same, up is 0 or along the line of sight, or the
+/// whole mesh is behind the eye; InputError when no position of the mesh is finite, or the mesh is too far
+/// away or too large for floats.
 [[nodiscard]] Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name);
 
 }  // namespace halfspace
