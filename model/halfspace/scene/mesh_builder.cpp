@@ -32,6 +32,10 @@ void MeshBuilder::reserve_vertices(std::uint64_t count) {
   mesh_.positions.reserve(mesh_.positions.size() + count);
 }
 
+void MeshBuilder::reserve_triangles(std::uint64_t count) {
+  mesh_.indices.reserve(std::min(mesh_.indices.size() + 3 * count, 3 * kMaxMeshTriangles));
+}
+
 void MeshBuilder::add_vertex(glm::dvec3 position) {
   if (mesh_.positions.size() == kMaxMeshVertices) check_room(1, 0);
   if (!is_finite(position)) ++not_finite_;
@@ -51,7 +55,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
   }
   check_room(0, corners.size() - 2);
   if (corners.size() == 3) {
-    mesh_.indices.insert(mesh_.indices.end(), corners.begin(), corners.end());
+    for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
     return;
   }
   if (!triangulate(corners, mesh_.positions, mesh_.indices)) {

@@ -137,14 +137,13 @@ class ObjParser {
   /// The start of the next line if the \ at `place` is the last of its line but for blanks; nullptr
   /// otherwise.
   [[nodiscard]] const char* continued(const char* place) const {
-    const char* const after = std::find_if_not(place + 1, end_, is_blank);
+    const char* const after = skip_all(place + 1, end_, kBlank);
     if (after == end_) return end_;
-    return is_line_end(*after) ? next_line(after) : nullptr;
+    return is(*after, kLineEnd) ? next_line(after) : nullptr;
   }
 
   [[nodiscard]] bool is_word_end(const char* place) const {
-    return place == end_ || is_blank(*place) || is_line_end(*place) ||
-           (*place == '\\' && continued(place) != nullptr);
+    return place == end_ || is(*place, kBlank | kLineEnd) || (*place == '\\' && continued(place) != nullptr);
   }
 
   /// As is_word_end(), where a comment may follow without a blank.
@@ -153,8 +152,8 @@ class ObjParser {
   /// Moves to the next word of the statement; false when there is none.
   bool to_word() {
     for (;;) {
-      while (at_ != end_ && is_blank(*at_)) ++at_;
-      if (at_ == end_ || is_line_end(*at_) || *at_ == '#') return false;
+      at_ = skip_all(at_, end_, kBlank);
+      if (at_ == end_ || is(*at_, kLineEnd | kHash)) return false;
       if (*at_ != '\\') return true;
       const char* const next = continued(at_);
       if (next == nullptr) return true;
@@ -164,7 +163,7 @@ class ObjParser {
 
   std::string_view take_word() {
     const char* const first = at_;
-    while (!is_word_end(at_)) ++at_;
+    while (!is_word_end(at_)) at_ = find_any(at_ + 1, end_, kBlank | kLineEnd | kBackslash);
     return {first, static_cast<std::size_t>(at_ - first)};
   }
 
@@ -172,7 +171,7 @@ class ObjParser {
   /// folder.
   void to_next_line() {
     while (to_word()) take_word();
-    at_ = std::find_if(at_, end_, is_line_end);
+    at_ = find_any(at_, end_, kLineEnd);
     if (at_ != end_) at_ = next_line(at_);
   }
 

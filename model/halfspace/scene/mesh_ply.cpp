@@ -166,6 +166,7 @@ class BodyParser {
              quote(element.name));
     }
     const bool strips = element.name == "tristrips";
+    if (!strips) builder_.reserve_triangles(element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         if (p != corners) {

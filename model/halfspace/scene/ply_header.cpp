@@ -41,13 +41,11 @@ constexpr std::array<TypeName, 16> kTypeNames{{{"char", Type::kInt8},
 
 /// Cuts the next word off the line; empty at its end.
 std::string_view next_word(std::string_view& line) {
-  const auto is_space = [](char c) { return is_blank(c) || is_line_end(c); };
-  line.remove_prefix(
-      static_cast<std::size_t>(std::find_if_not(line.begin(), line.end(), is_space) - line.begin()));
-  const std::string_view word = line.substr(
-      0, static_cast<std::size_t>(std::find_if(line.begin(), line.end(), is_space) - line.begin()));
-  line.remove_prefix(word.size());
-  return word;
+  const char* const end = line.data() + line.size();
+  const char* const first = skip_all(line.data(), end, kBlank | kLineEnd);
+  const char* const last = find_any(first, end, kBlank | kLineEnd);
+  line = {last, end};
+  return {first, last};
 }
 
 class HeaderParser {

@@ -57,10 +57,9 @@ class TextNumbers {
   /// Of the property, for errors.
   std::int64_t next_integer(Type type, std::string_view property) {
     to_word();
-    std::string_view digits = rest_;
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const auto size = static_cast<std::size_t>(end - digits.data());
+    const auto [stop, error] = std::from_chars(rest_.data(), end(), value);
+    const auto size = static_cast<std::size_t>(stop - rest_.data());
     if (error == std::errc() && is_word_end(size)) {
       rest_.remove_prefix(size);
       return value;
@@ -79,25 +78,19 @@ class TextNumbers {
   }
 
  private:
-  static bool is_space(char c) { return is_blank(c) || is_line_end(c); }
-  [[nodiscard]] bool is_word_end(std::size_t at) const { return at == rest_.size() || is_space(rest_[at]); }
+  static constexpr int kSpace = kBlank | kLineEnd;
 
-  void to_word() {
-    std::size_t at = 0;
-    while (!is_word_begin(at)) ++at;
-    rest_.remove_prefix(at);
-  }
-  [[nodiscard]] bool is_word_begin(std::size_t at) const {
-    return at == rest_.size() || !is_space(rest_[at]);
-  }
+  [[nodiscard]] const char* end() const { return rest_.data() + rest_.size(); }
+  [[nodiscard]] bool is_word_end(std::size_t at) const { return at == rest_.size() || is(rest_[at], kSpace); }
+
+  void to_word() { rest_ = {skip_all(rest_.data(), end(), kSpace), end()}; }
 
   /// Moves behind a number of `size` characters.
   void take(std::size_t size) {
     if (rest_.empty()) refuse_end(name_);
     if (size == 0 || !is_word_end(size)) {
-      const auto* const end = std::find_if(rest_.begin(), rest_.end(), is_space);
       refuse(name_, "body has {}; legal: a number",
-             quote(rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()))));
+             quote({rest_.data(), find_any(rest_.data(), end(), kSpace)}));
     }
     rest_.remove_prefix(size);
   }
