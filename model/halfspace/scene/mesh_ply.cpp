@@ -193,6 +193,7 @@ class BodyParser {
   /// The strips of one list, which end at -1.
   void parse_strips(const Property& property, std::uint64_t record) {
     const std::uint32_t count = next_count(property);
+    builder_.reserve_triangles(std::min<std::uint64_t>(count, numbers_.room()));
     Strip strip(builder_);
     for (std::uint32_t c = 0; c < count; ++c) {
       const std::int64_t value = numbers_.next_integer(property.type, property.name);
