@@ -228,8 +228,10 @@ TEST_CASE("errors are one line that names the thing, its value and what is legal
   check_error(place.run("run nothing.ptf"), {"nothing.ptf"});
   check_error(place.run("run " + scene("README.md")), {"README.md", ".ptf"});
   check_error(place.run("run " + cube + " --config nothing.toml"), {"nothing.toml"});
-  check_error(place.run("run " + cube + " --eye 1,2"), {"--eye", "'1,2'", "X,Y,Z"});
-  check_error(place.run("run " + cube + " --size 10"), {"--size", "'10'", "16384"});
+  std::ofstream(place.path / "a.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  const std::string mesh = (place.path / "a.obj").string();
+  check_error(place.run("run " + mesh + " --eye 1,2"), {"--eye", "'1,2'", "X,Y,Z"});
+  check_error(place.run("run " + mesh + " --size 10"), {"--size", "'10'", "16384"});
   check_error(place.run("run"), {"INPUT"});
   check_error(place.run("nonsense"), {"nonsense"});
   std::ofstream(place.path / "bad.toml") << "[tile_walker]\ntile_size = \"large\"\n";

@@ -27,7 +27,7 @@ TEST_CASE("stress: a campaign in sittings, and its files") {
     CHECK(family.at("next") == 3);
   }
   const Outcome other = place.run("stress --seed 2 --cases 3 --out " + out);
-  CHECK(other.status == 1);
+  CHECK(other.status == 2);
   CHECK(other.err.find("the campaign's seed is '2'; it must be '1'") != std::string::npos);
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("stress: bad options") {
     CHECK(outcome.out.empty());
   }
   const Outcome engine = place.run("stress --engine mine");
-  CHECK(engine.status == 1);
+  CHECK(engine.status == 2);
   CHECK(engine.err.find(
             "--engine is 'mine'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME") !=
         std::string::npos);

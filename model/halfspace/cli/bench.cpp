@@ -7,7 +7,7 @@
 
 namespace halfspace {
 
-void add_bench_command(CLI::App& app, int& status) {
+void add_bench_command(CLI::App& app, ExitStatus& status) {
   CLI::App* bench = app.add_subcommand("bench", "measure speed and error");
   bench->require_subcommand(1);
   add_bench_speed(*bench);

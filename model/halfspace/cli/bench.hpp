@@ -5,6 +5,8 @@
 #include <chrono>
 #include <vector>
 
+#include "halfspace/cli/exit_status.hpp"
+
 namespace CLI {
 class App;
 }
@@ -36,6 +38,6 @@ void add_bench_time(CLI::App& bench);
 void add_bench_sampled(CLI::App& bench);
 void add_bench_rtl(CLI::App& bench);
 void add_bench_idle(CLI::App& bench);
-void add_bench_error(CLI::App& bench, int& status);
+void add_bench_error(CLI::App& bench, ExitStatus& status);
 
 }  // namespace halfspace

@@ -59,7 +59,7 @@ void add_bench_depth_traffic(CLI::App& bench) {
   auto options = std::make_shared<DepthTrafficOptions>();
   CLI::App* command = bench.add_subcommand(
       "depth-traffic", "lines and bytes of depth, coded and raw, by the class of the line");
-  command->add_option("INPUT", options->inputs, "frames (PTF1) or synthetic:NAME")->required();
+  command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
   command->callback([options] { bench_depth_traffic(*options); });
 }

@@ -37,7 +37,7 @@ struct ErrorOptions {
       }
     }
     if (all.empty()) {
-      throw InputError(
+      throw OptionError(
           "bench error: no INPUT is given; legal: frames, meshes, synthetic:NAME, or --synthetic");
     }
     return all;
@@ -122,8 +122,7 @@ WorkloadErrors measure(const Frame& frame, const Config& config, const ErrorOpti
   return compare_fidelities(frame.name, runs);
 }
 
-/// Returns the exit status.
-int bench_error(const ErrorOptions& options) {
+ExitStatus bench_error(const ErrorOptions& options) {
   ErrorTable table{.config = options.machine.config(), .repeat = options.repeat, .workloads = {}};
   const std::vector<std::string> inputs = options.all_inputs();
   (void)options.rtl.pipeline(table.config);  // without it there is nothing to compare with: said at once
@@ -141,12 +140,12 @@ int bench_error(const ErrorOptions& options) {
   } else {
     fmt::print("{}", error_markdown(table));
   }
-  return table.function_agrees() ? 0 : 1;
+  return status_of(table.function_agrees());
 }
 
 }  // namespace
 
-void add_bench_error(CLI::App& bench, int& status) {
+void add_bench_error(CLI::App& bench, ExitStatus& status) {
   auto options = std::make_shared<ErrorOptions>();
   CLI::App* command =
       bench.add_subcommand("error", "run time against error: every fidelity beside the verilated RTL");

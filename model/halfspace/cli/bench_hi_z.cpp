@@ -72,7 +72,7 @@ void add_bench_hi_z(CLI::App& bench) {
   auto options = std::make_shared<HiZOptions>();
   CLI::App* command =
       bench.add_subcommand("hi-z", "the bursts that hi_z stops, beside an oracle, by bits, lag and time");
-  command->add_option("INPUT", options->inputs, "frames (PTF1) or synthetic:NAME")->required();
+  command->add_option("INPUT", options->inputs, "frames, meshes or synthetic:NAME")->required();
   options->machine.add_to(*command);
   command->add_option("--bits", options->bits, "bits of a bound")
       ->delimiter(',')

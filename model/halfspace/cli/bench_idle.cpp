@@ -56,8 +56,8 @@ void print_idle(const Frame& frame, const std::string& machine, const Config& co
     skipping.push_back(
         processor_milliseconds([&] { same = run_rtl(frame, config, {}, *skipped).timed.cycles; }));
     if (all != cycles || same != cycles) {
-      throw InputError(fmt::format("{}: runs disagree: systemc {}, rtl {}, skipping {} cycles", frame.name,
-                                   cycles.cycles, all.cycles, same.cycles));
+      throw DisagreementError(fmt::format("{}: runs disagree: systemc {}, rtl {}, skipping {} cycles",
+                                          frame.name, cycles.cycles, all.cycles, same.cycles));
     }
   }
   fmt::print("| {} | {} | {} | {} | {:.2f} | {:.0f} | {:.1f} | {:.0f} | {:.0f} | {:.2f} |\n", machine,

@@ -30,7 +30,7 @@ Spread tests(std::size_t bytes, int repeat) {
     rates.push_back(static_cast<double>(passes * stored.size()) / ms / 1e6);
   }
   if (passed != passes * stored.size() * static_cast<std::size_t>(repeat)) {
-    throw InputError(fmt::format("bench roof: {} tests passed; all should", passed));
+    throw DisagreementError(fmt::format("bench roof: {} tests passed; all should", passed));
   }
   return spread(rates);
 }

@@ -38,8 +38,8 @@ void print_speed(const Frame& frame, const Config& config, const RtlOptions& rtl
     FrameCycles recurrence;
     model.push_back(milliseconds([&] { recurrence = run_recurrence(frame, config).cycles; }));
     if (digest != trace.digest() || again != first || recurrence != first) {
-      throw InputError(fmt::format("{}: runs disagree: rtl {} and {}, recurrence {} cycles", frame.name,
-                                   first.cycles, again.cycles, recurrence.cycles));
+      throw DisagreementError(fmt::format("{}: runs disagree: rtl {} and {}, recurrence {} cycles",
+                                          frame.name, first.cycles, again.cycles, recurrence.cycles));
     }
   }
   const auto cycles = static_cast<double>(first.cycles);

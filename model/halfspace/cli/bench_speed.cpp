@@ -10,10 +10,12 @@
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/input_name.hpp"
 #include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
 #include "halfspace/speed/llvmpipe.hpp"
@@ -46,16 +48,16 @@ struct SpeedOptions {
   }
 
   [[nodiscard]] Frame frame(const std::string& input) const {
-    if (!input.starts_with(kSyntheticPrefix)) {
+    const InputName name = input_name(input);
+    if (name.kind != InputKind::kSynthetic) {
       if (!depth.empty()) {
-        throw InputError(fmt::format(
+        throw OptionError(fmt::format(
             "{}: has its own depth format, and --depth is '{}'; legal with --depth: synthetic frames", input,
             depth));
       }
       return load(input);
     }
-    return synthetic_frame(std::string_view(input).substr(kSyntheticPrefix.size()),
-                           depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
+    return synthetic_frame(name.stem, depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
   }
 };
 
@@ -147,8 +149,8 @@ class SpeedBench {
   std::uint64_t count_scalar() {
     const ScalarCounts counts = loop_->count();
     if (counts.fragments != counters_.quad_generator.fragments) {
-      throw InputError(fmt::format("{}: coverage differs: functional {} fragments, scalar loop {}",
-                                   frame_.name, counters_.quad_generator.fragments, counts.fragments));
+      throw DisagreementError(fmt::format("{}: coverage differs: functional {} fragments, scalar loop {}",
+                                          frame_.name, counters_.quad_generator.fragments, counts.fragments));
     }
     return counts.survivors;
   }
@@ -232,13 +234,13 @@ void add_bench_speed(CLI::App& bench) {
   options->core.add_to(*speed);
   options->threads.add_to(*speed, "The model uses them");
   speed->add_option("--depth", options->depth, "depth format of synthetic frames (default: unorm24)")
-      ->check(CLI::IsMember({"unorm24", "float32"}))
+      ->check(one_of({"unorm24", "float32"}))
       ->type_name("FORMAT");
   speed->add_option("--repeat", options->repeat, "number of timed passes of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   speed->add_option("--without", options->without, "leave contenders out")
-      ->check(CLI::IsMember({"functional_pixels", "scalar_loop", "llvmpipe"}))
+      ->check(one_of({"functional_pixels", "scalar_loop", "llvmpipe"}))
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows is INPUT
       ->type_name("NAME,...");

@@ -73,8 +73,8 @@ void print_times(const Frame& frame, const Config& config, const TimeOptions& op
         }),
     };
     if (retimed.cycles != cycles || events != cycles || all != each) {
-      throw InputError(fmt::format("{}: engines disagree: recurrence {}, systemc {}, retime {} cycles",
-                                   frame.name, cycles, events, retimed.cycles));
+      throw DisagreementError(fmt::format("{}: engines disagree: recurrence {}, systemc {}, retime {} cycles",
+                                          frame.name, cycles, events, retimed.cycles));
     }
     if (i == 0) {  // warms caches and page tables
       continue;

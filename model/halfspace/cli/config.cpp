@@ -41,7 +41,7 @@ std::string to_markdown() {
 
 }  // namespace
 
-void add_config_command(CLI::App& app, int& /*status*/) {
+void add_config_command(CLI::App& app, ExitStatus& /*status*/) {
   auto machine = std::make_shared<MachineOptions>();
   auto toml = std::make_shared<bool>(false);
   auto rtl = std::make_shared<bool>(false);

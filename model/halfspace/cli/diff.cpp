@@ -5,11 +5,12 @@
 #include <memory>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/exit_status.hpp"
 #include "halfspace/report/diff.hpp"
 
 namespace halfspace {
 
-void add_diff_command(CLI::App& app, int& status) {
+void add_diff_command(CLI::App& app, ExitStatus& status) {
   auto folders = std::make_shared<std::pair<std::string, std::string>>();
   CLI::App* command =
       app.add_subcommand("diff", "compare the results of two runs; exit status 1 where they differ");
@@ -24,7 +25,7 @@ void add_diff_command(CLI::App& app, int& status) {
       fmt::print("{}: only in one of the two, not compared\n", file);
     }
     fmt::print("{} files compared, {} differ\n", result.compared.size(), result.files.size());
-    status = result.files.empty() ? 0 : 1;
+    status = status_of(result.files.empty());
   });
 }
 

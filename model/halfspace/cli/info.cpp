@@ -88,7 +88,7 @@ void info(const InfoOptions& options) {
 
 }  // namespace
 
-void add_info_command(CLI::App& app, int& /*status*/) {
+void add_info_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = app.add_subcommand("info", "show what a frame or a mesh holds");
   options->input.add_to(*command);

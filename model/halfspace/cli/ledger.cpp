@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/percent.hpp"
 #include "halfspace/cli/progress.hpp"
@@ -103,7 +104,7 @@ void print_report(const LedgerReport& report, bool draws) {
 
 void ledger_command(const LedgerOptions& options) {
   const Fidelity fidelity = fidelity_of(options.fidelity);
-  require(fidelity, !options.rtl.folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
+  options.rtl.check(fidelity);
   RunOptions run_options;
   run_options.watch.count_pixels = false;
   options.rtl.apply(run_options);
@@ -145,24 +146,22 @@ void ledger_command(const LedgerOptions& options) {
 
 }  // namespace
 
-void add_ledger_command(CLI::App& app, int& /*status*/) {
+void add_ledger_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<LedgerOptions>();
   CLI::App* command = app.add_subcommand(
       "ledger", "what became of every triangle, tile, quad, fragment and line of depth, and what saved work");
   options->input.add_to(*command);
   options->machine.add_to(*command);
-  std::vector<std::string> fidelities;
-  for (const FidelityInfo& fidelity : kFidelityInfo) {
-    fidelities.emplace_back(fidelity.name);
-  }
   command->add_option("--fidelity", options->fidelity, "whose counters the ledger must agree with")
-      ->check(CLI::IsMember(fidelities))
+      ->check(one_of_table(kFidelityInfo, &FidelityInfo::name))
       ->capture_default_str();
   options->rtl.add_folder_to(*command);
-  command->add_flag("--savings", options->savings,
-                    "run the frame with all switches of the machine on, with each off in turn, and with all "
-                    "off (recurrence)");
+  CLI::Option* savings = command->add_flag(
+      "--savings", options->savings,
+      "run the frame with all switches of the machine on, with each off in turn, and with all "
+      "off (recurrence)");
   options->threads.add_to(*command, "With --savings: one runs the units, one times packets");
+  command->get_option("--threads")->needs(savings);
   command->add_option("--out", options->out, "folder for ledger.json, ledger.csv and ledger.svg")
       ->type_name("DIR");
   CLI::Option* json = command->add_flag("--json", options->json, "print ledger.json, not the tables");

@@ -7,8 +7,12 @@
 #include <charconv>
 #include <limits>
 
+#include "halfspace/cli/known_words.hpp"
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/input_name.hpp"
 #include "halfspace/scene/load.hpp"
+#include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/validate.hpp"
 
 namespace halfspace {
@@ -37,7 +41,7 @@ std::vector<Number> parse_list(const std::string& text, char separator) {
 glm::dvec3 parse_point(const char* option, const std::string& text) {
   const std::vector<double> v = parse_list<double>(text, ',');
   if (v.size() != 3) {
-    throw InputError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
+    throw OptionError(fmt::format("{} is '{}'; it must be three numbers X,Y,Z", option, text));
   }
   return {v[0], v[1], v[2]};
 }
@@ -54,14 +58,15 @@ void set_stall(StallPlan& plan, const std::string& text) {
                                                  : parse_list<std::uint32_t>(text.substr(colon + 1), ':');
   if (point == kStallPointName.end() || numbers.size() != 2 || numbers[0] > 100 || numbers[1] < 1 ||
       numbers[1] > kMostStallCycles) {
-    throw InputError(
-        fmt::format("--stall is '{}'; it must be POINT:PERCENT:MAX_CYCLES with POINT one of {}, PERCENT 0 to "
-                    "100, MAX_CYCLES 1 to {}",
-                    text, fmt::join(kStallPointName, ", "), kMostStallCycles));
+    throw OptionError(fmt::format(
+        "--stall is '{}'{}; it must be POINT:PERCENT:MAX_CYCLES with POINT one of {}, PERCENT 0 to "
+        "100, MAX_CYCLES 1 to {}",
+        text, did_you_mean(text.substr(0, colon), kStallPointName), fmt::join(kStallPointName, ", "),
+        kMostStallCycles));
   }
   StallPlan::Rate& rate = plan.rate[static_cast<std::size_t>(point - kStallPointName.begin())];
   if (rate.max_cycles != 0) {
-    throw InputError(fmt::format("--stall is '{}'; '{}' was given before; legal: once", text, *point));
+    throw OptionError(fmt::format("--stall is '{}'; '{}' was given before; legal: once", text, *point));
   }
   rate = {.percent = numbers[0], .max_cycles = numbers[1]};
 }
@@ -72,7 +77,7 @@ std::optional<TimelineRange> parse_range(const char* option, const std::string& 
   }
   const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
   if (v.size() != 2 || v[0] > v[1]) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{} is '{}'; it must be FIRST:LAST, two integers from 0, the first not after the last",
                     option, text));
   }
@@ -86,13 +91,24 @@ std::uint64_t parse_seed(const char* option, const std::string& text) {
   }
   const std::vector<std::uint64_t> v = parse_list<std::uint64_t>(text, ':');
   if (v.size() != 1) {
-    throw InputError(fmt::format("{} is '{}'; it must be an integer, 0 to {}", option, text,
-                                 std::numeric_limits<std::uint64_t>::max()));
+    throw OptionError(fmt::format("{} is '{}'; it must be an integer, 0 to {}", option, text,
+                                  std::numeric_limits<std::uint64_t>::max()));
   }
   return v[0];
 }
 
 }  // namespace
+
+void check_config(const Config& config, const std::string& file, bool changed) {
+  try {
+    validate(config);
+  } catch (const OptionError& error) {
+    if (changed) {
+      throw;
+    }
+    throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+}
 
 void MachineOptions::add_to(CLI::App& command) {
   command.add_option("--config", file, "configuration file (TOML)")->type_name("FILE");
@@ -106,26 +122,30 @@ Config MachineOptions::config() const {
   for (const std::string& setting : settings) {
     set_config(config, setting);
   }
-  validate(config);
+  check_config(config, file, !settings.empty());
   return config;
 }
 
 CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& more) {
   CLI::Option* input =
       command
-          .add_option("INPUT", paths,
-                      "frame (.ptf, .ptf.gz, .ptf.xz), mesh (.obj, .ply, .gltf, .glb) or synthetic:NAME; "
-                      "'halfspace info --help' lists the names" +
-                          more)
+          .add_option(
+              "INPUT", paths,
+              fmt::format("frame ({}), mesh ({}), {}, or {}NAME; 'halfspace info --help' lists the names",
+                          kFrameExtensions, kMeshExtensions, kPackedExtensions, kSyntheticPrefix) +
+                  more)
           ->required();
-  command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
-      ->type_name("X,Y,Z");
-  command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
-      ->type_name("X,Y,Z");
-  command.add_option("--up", up, "mesh: direction that points up in the picture (default: 0,1,0)")
-      ->type_name("X,Y,Z");
-  command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")->capture_default_str();
-  command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")->type_name("WxH");
+  of_meshes_ = {
+      command.add_option("--eye", eye, "mesh: camera position (default: sees the whole mesh)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--at", at, "mesh: point that the camera looks at (default: the middle)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--up", up, "mesh: direction that points up in the picture (default: 0,1,0)")
+          ->type_name("X,Y,Z"),
+      command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")
+          ->capture_default_str(),
+      command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")
+          ->type_name("WxH")};
   return input;
 }
 
@@ -136,6 +156,17 @@ void InputOptions::add_several_to(CLI::App& command) {
 }
 
 Camera InputOptions::camera() const {
+  const bool for_mesh = std::ranges::any_of(paths, [](const std::string& path) {
+    const InputName name = input_name(path);
+    return name.is_mesh() || !name.kind;  // load() refuses what has no kind
+  });
+  for (const CLI::Option* option : of_meshes_) {
+    if (!for_mesh && option->count() != 0) {
+      throw OptionError(fmt::format("INPUT is {}, no mesh, and {} is given; legal with it: {}, {}",
+                                    quote(paths.front()), option->get_name(), kMeshExtensions,
+                                    kPackedExtensions));
+    }
+  }
   Camera camera;
   camera.fov_degrees = fov_degrees;
   if (!eye.empty()) {
@@ -150,8 +181,8 @@ Camera InputOptions::camera() const {
   if (!size.empty()) {
     const std::vector<std::uint32_t> v = parse_list<std::uint32_t>(size, 'x');
     if (v.size() != 2) {
-      throw InputError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size,
-                                   kMaxTargetSize));
+      throw OptionError(fmt::format("--size is '{}'; it must be WIDTHxHEIGHT in pixels, each 1 to {}", size,
+                                    kMaxTargetSize));
     }
     camera.width = v[0];
     camera.height = v[1];
@@ -162,10 +193,11 @@ Camera InputOptions::camera() const {
 Frame InputOptions::frame() const { return load(paths.front(), camera()); }
 
 std::vector<Frame> InputOptions::frames() const {
+  const Camera seen_by = camera();
   std::vector<Frame> frames;
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
-    frames.push_back(load(path, camera()));
+    frames.push_back(load(path, seen_by));
   }
   return frames;
 }
@@ -176,10 +208,10 @@ void WhatIfOptions::add_to(CLI::App& command) {
       ->type_name("PIXELS")
       ->group(kGroup);
   command.add_option("--sort", sort, "sort opaque draws by their farthest depth")
-      ->check(CLI::IsMember({"front-to-back", "back-to-front"}))
+      ->check(one_of({"front-to-back", "back-to-front"}))
       ->group(kGroup);
   command.add_option("--order", order, "alternate: walk every second INPUT backwards")
-      ->check(CLI::IsMember({"alternate"}))
+      ->check(one_of({"alternate"}))
       ->group(kGroup);
   command.add_flag("--prepass", prepass, "lay the depth of opaque draws before they are shaded")
       ->group(kGroup);
@@ -204,7 +236,7 @@ whatif::WhatIf WhatIfOptions::what_if() const {
 void CoreOption::add_to(CLI::App& command) {
   command
       .add_option("--core", name, "implementation of the units: with vectors, or one packet after the other")
-      ->check(CLI::IsMember(std::vector<std::string>(kCoreName.begin(), kCoreName.end())))
+      ->check(one_of_table(kCoreName))
       ->capture_default_str();
 }
 
@@ -234,6 +266,9 @@ StallPlan StallOptions::plan() const {
   for (const std::string& stall : stalls) {
     set_stall(plan, stall);
   }
+  if (!seed.empty() && stalls.empty()) {
+    throw OptionError(fmt::format("--seed is '{}', given without a stall; legal with --stall", seed));
+  }
   return plan;
 }
 
@@ -255,6 +290,13 @@ void RtlOptions::add_to(CLI::App& command) {
   command.add_flag(
       "--rtl-every-cycle", every_cycle,
       "evaluate the RTL also in cycles in which nothing in it can change; the result is the same");
+}
+
+void RtlOptions::check(Fidelity fidelity) const {
+  require(fidelity, !folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
+  require(fidelity, !seed.empty(), "--rtl-seed", &FidelityInfo::rtl);
+  require(fidelity, !wave.empty(), "--wave", &FidelityInfo::rtl);
+  require(fidelity, every_cycle, "--rtl-every-cycle", &FidelityInfo::rtl);
 }
 
 void RtlOptions::apply(RunOptions& run) const {

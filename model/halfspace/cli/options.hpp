@@ -19,6 +19,10 @@
 
 namespace halfspace {
 
+/// Checks the configuration of a file, which settings have changed or not. Throws InputError where the file
+/// alone is wrong, OptionError where a setting has a part in it.
+void check_config(const Config& config, const std::string& file, bool changed);
+
 /// --config and --set.
 struct MachineOptions {
   std::string file;
@@ -56,12 +60,15 @@ struct InputOptions {
   void add_to(CLI::App& command);
   /// Takes several, which follow each other.
   void add_several_to(CLI::App& command);
-  [[nodiscard]] Camera camera() const;              ///< throws InputError
   [[nodiscard]] Frame frame() const;                ///< loaded and validated; throws InputError
   [[nodiscard]] std::vector<Frame> frames() const;  ///< all of them; throws InputError
 
  private:
   CLI::Option* add_input_to(CLI::App& command, const std::string& more);
+  /// Throws OptionError, too where an option of it is given and no INPUT is a mesh.
+  [[nodiscard]] Camera camera() const;
+
+  std::vector<CLI::Option*> of_meshes_;  ///< what only a mesh takes
 };
 
 /// --lod, --sort, --order, --prepass and --delay.
@@ -82,7 +89,7 @@ struct StallOptions {
   std::string seed;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] StallPlan plan() const;  ///< throws InputError
+  [[nodiscard]] StallPlan plan() const;  ///< throws OptionError
 };
 
 /// --rtl-folder, --rtl-seed and --wave: the verilated pipeline of a run.
@@ -94,6 +101,8 @@ struct RtlOptions {
 
   void add_to(CLI::App& command);
   void add_folder_to(CLI::App& command);
+  /// Throws OptionError where one is given and the fidelity is not that of the RTL.
+  void check(Fidelity fidelity) const;
   /// Puts them where a run takes them. Throws InputError.
   void apply(RunOptions& run) const;
   /// Throws InputError.
@@ -107,7 +116,7 @@ struct TimelineOptions {
   std::string cycles;
 
   void add_to(CLI::App& command, CLI::Option* out);
-  [[nodiscard]] TimelineChoice choice() const;  ///< throws InputError
+  [[nodiscard]] TimelineChoice choice() const;  ///< throws OptionError
 };
 
 }  // namespace halfspace

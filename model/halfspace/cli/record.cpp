@@ -44,7 +44,7 @@ void record(const RecordOptions& options) {
 
 }  // namespace
 
-void add_record_command(CLI::App& app, int& /*status*/) {
+void add_record_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<RecordOptions>();
   CLI::App* command = app.add_subcommand("record", "record the packets of a frame, for `halfspace retime`");
   options->input.add_several_to(*command);

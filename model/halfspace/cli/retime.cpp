@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/record/frame_record_file.hpp"
@@ -44,7 +45,7 @@ struct Row {
 Sweep parse_sweep(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals + 1 == text.size()) {
-    throw InputError(fmt::format("--sweep is '{}'; it must read KEY=VALUE,VALUE,...", text));
+    throw OptionError(fmt::format("--sweep is '{}'; it must read KEY=VALUE,VALUE,...", text));
   }
   Sweep sweep{.key = text.substr(0, equals), .values = {}};
   for (std::size_t at = equals + 1; at <= text.size();) {
@@ -60,7 +61,7 @@ void make_machines(const RetimeOptions& options, const std::vector<Sweep>& sweep
                    std::vector<Row>& machines, std::vector<Config>& configs) {
   std::vector<std::pair<std::string, Config>> bases;
   for (const std::string& file : options.configs) {
-    bases.emplace_back(std::filesystem::path(file).stem().string(), read_config(file));
+    bases.emplace_back(file, read_config(file));
   }
   if (bases.empty()) {
     bases.emplace_back("recorded", recorded);
@@ -69,23 +70,24 @@ void make_machines(const RetimeOptions& options, const std::vector<Sweep>& sweep
   for (const Sweep& sweep : sweeps) {
     combinations *= sweep.values.size();
     if (combinations * bases.size() > kMostMachines) {
-      throw InputError(fmt::format("--sweep makes too many machines; legal: at most {}", kMostMachines));
+      throw OptionError(fmt::format("--sweep makes too many machines; legal: at most {}", kMostMachines));
     }
   }
-  for (auto& [name, base] : bases) {
+  for (auto& [file, base] : bases) {
     for (const std::string& setting : options.settings) {
       set_config(base, setting);
     }
     for (std::size_t i = 0; i < combinations; ++i) {
       Config config = base;
-      Row row{.name = name, .values = std::vector<std::string>(sweeps.size())};
+      Row row{.name = std::filesystem::path(file).stem().string(),
+              .values = std::vector<std::string>(sweeps.size())};
       std::size_t rest = i;
       for (std::size_t k = sweeps.size(); k-- > 0;) {
         row.values[k] = sweeps[k].values[rest % sweeps[k].values.size()];
         rest /= sweeps[k].values.size();
         set_config(config, sweeps[k].key, row.values[k]);
       }
-      validate(config);
+      check_config(config, file, !options.settings.empty() || !sweeps.empty());
       machines.push_back(std::move(row));
       configs.push_back(config);
     }
@@ -161,7 +163,7 @@ void retime(const RetimeOptions& options) {
 
 }  // namespace
 
-void add_retime_command(CLI::App& app, int& /*status*/) {
+void add_retime_command(CLI::App& app, ExitStatus& /*status*/) {
   auto options = std::make_shared<RetimeOptions>();
   CLI::App* command =
       app.add_subcommand("retime", "compute the cycles of a recorded frame on other machines");
@@ -181,7 +183,7 @@ void add_retime_command(CLI::App& app, int& /*status*/) {
   command
       ->add_option("--fidelity", options->fidelity,
                    "recurrence: exact; sampled: an estimate, ten times as fast for a large frame")
-      ->check(CLI::IsMember({"recurrence", "sampled"}))
+      ->check(one_of({"recurrence", "sampled"}))
       ->capture_default_str();
   options->threads.add_to(*command, "Each times other machines");
   command->add_option("--csv", options->csv, "write the table as CSV too")->type_name("FILE");

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/exit_status.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_reference.hpp"
@@ -53,10 +55,7 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, !options.stalls.seed.empty(), "--seed", &FidelityInfo::packets);
   require(fidelity, options.timeline.wanted, "--timeline", &FidelityInfo::timeline);
   require(fidelity, !options.vcd.empty(), "--vcd", &FidelityInfo::vcd);
-  require(fidelity, !options.rtl.wave.empty(), "--wave", &FidelityInfo::rtl);
-  require(fidelity, !options.rtl.folder.empty(), "--rtl-folder", &FidelityInfo::rtl);
-  require(fidelity, !options.rtl.seed.empty(), "--rtl-seed", &FidelityInfo::rtl);
-  require(fidelity, options.rtl.every_cycle, "--rtl-every-cycle", &FidelityInfo::rtl);
+  options.rtl.check(fidelity);
 }
 
 /// Refuses options that a reference rasterizer has no use for.
@@ -78,7 +77,7 @@ void check_reference(const RunCommand& options) {
                                     {rtl.every_cycle, "--rtl-every-cycle"},
                                     {options.what_if.what_if().any(), "a what-if"}}) {
     if (given) {
-      throw InputError(
+      throw OptionError(
           fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
                       "--no-pictures, and the camera of a mesh",
                       options.reference, name));
@@ -124,8 +123,7 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
   return run(fidelity, frame, config, options);
 }
 
-/// Returns the exit status.
-int run_command(const RunCommand& command) {
+ExitStatus run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
     run_reference({.method = command.reference,
@@ -133,7 +131,7 @@ int run_command(const RunCommand& command) {
                    .quads = command.quads,
                    .pictures = !command.no_pictures},
                   whatif::join(command.input.frames()), command.machine.config());
-    return 0;
+    return ExitStatus::kDone;
   }
   const Fidelity fidelity = fidelity_of(command.fidelity);
   check_fidelity(fidelity, command);
@@ -194,24 +192,19 @@ int run_command(const RunCommand& command) {
   if (folder) {
     fmt::print("  results in {}\n", command.out);
   }
-  return agree ? 0 : 1;
+  return status_of(agree);
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& status) {
+void add_run_command(CLI::App& app, ExitStatus& status) {
   auto options = std::make_shared<RunCommand>();
   CLI::App* command = app.add_subcommand("run", "rasterize a frame or a mesh");
   options->input.add_several_to(*command);
   options->what_if.add_to(*command);
   options->machine.add_to(*command);
-  std::vector<std::string> fidelities;
-  fidelities.reserve(kFidelityInfo.size());
-  for (const FidelityInfo& fidelity : kFidelityInfo) {
-    fidelities.emplace_back(fidelity.name);
-  }
   command->add_option("--fidelity", options->fidelity, "selects the timing engine")
-      ->check(CLI::IsMember(fidelities))
+      ->check(one_of_table(kFidelityInfo, &FidelityInfo::name))
       ->capture_default_str();
   add_reference_option(*command, options->reference);
   options->core.add_to(*command);

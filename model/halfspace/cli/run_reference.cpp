@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/tie_rule.hpp"
 #include "halfspace/machine/surfaces.hpp"
@@ -41,7 +42,7 @@ reference::Options options_of(const ReferenceRequest& request, const Config& con
   options.rule = tie_rule(config);
   options.subpixel_bits = config.raster.sub_pixel_bits;
   if (config.late_z.mode == LateZ::kLate) {
-    throw InputError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
+    throw OptionError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
   }
   options.late_z =
       config.late_z.mode == LateZ::kOpaque ? reference::LateZ::kOpaque : reference::LateZ::kNoWrite;
@@ -203,12 +204,8 @@ void print_table(const Frame& frame, const RunResult& result) {
 }  // namespace
 
 void add_reference_option(CLI::App& command, std::string& method) {
-  std::vector<std::string> names;
-  for (const reference::Method& each : reference::methods()) {
-    names.emplace_back(each.name);
-  }
   command.add_option("--reference", method, "draws by a textbook rasterizer, not by the machine")
-      ->check(CLI::IsMember(names));
+      ->check(one_of_table(reference::methods(), &reference::Method::name));
 }
 
 void run_reference(const ReferenceRequest& request, Frame frame, const Config& config) {

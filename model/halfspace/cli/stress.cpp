@@ -1,21 +1,30 @@
 /// halfspace stress: a campaign that is hard on arithmetic, judged by exact arithmetic.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "halfspace/cli/commands.hpp"
+#include "halfspace/cli/exit_status.hpp"
+#include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/stress_sharpness.hpp"
 #include "halfspace/cli/tie_rule.hpp"
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/machine/draw_state.hpp"
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/reference/methods.hpp"
 #include "halfspace/stress/campaign.hpp"
 #include "halfspace/stress/campaign_report.hpp"
 #include "halfspace/stress/engine_subject.hpp"
@@ -108,18 +117,27 @@ std::unique_ptr<stress::Subject> make_subject(const StressCommand& command, Fide
     return stress::files_subject(path);
   }
   if (kind == "reference") {
+    const auto& known = reference::methods();
+    if (std::ranges::find(known, path, &reference::Method::name) == known.end()) {
+      throw OptionError(
+          fmt::format("--engine is '{}'{}; legal behind 'reference:': {}", command.engine,
+                      did_you_mean(path, known, &reference::Method::name),
+                      fmt::join(known | std::views::transform(&reference::Method::name), ", ")));
+    }
     return stress::reference_subject(path, precision_of(command, config));
   }
   if (kind == "wrong") {
     return stress::wrong_subject(stress::wrong_rasterizer(path), precision_of(command, config));
   }
-  throw InputError(fmt::format(
-      "--engine is '{}'; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME", command.engine));
+  constexpr std::array<std::string_view, 4> kKinds{"library", "files", "reference", "wrong"};
+  throw OptionError(
+      fmt::format("--engine is '{}'{}; it must be library:FILE, files:DIR, reference:NAME or wrong:NAME",
+                  command.engine, did_you_mean(kind, kKinds)));
 }
 
-/// All triangles of a small grid. Returns the exit status.
-int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Config& config,
-                       const RunOptions& options) {
+/// All triangles of a small grid.
+ExitStatus exhaustive_command(const StressCommand& command, Fidelity fidelity, const Config& config,
+                              const RunOptions& options) {
   ProgressBar bar("exhaustive");
   const auto progress = [&](std::size_t done) { bar.update(done, stress::kGridPoints / command.every); };
   const reference::TieRule rule = precision_of(command, config).rule;
@@ -137,13 +155,17 @@ int exhaustive_command(const StressCommand& command, Fidelity fidelity, const Co
         "{} quads wrong; {} tiles decided, {} unsound; {} edges, {} samples on them, {} not owned once\n",
         tally.wrong_quads, tally.tiles, tally.unsound, tally.edges, tally.on_edges, tally.ownerless);
   }
-  return tally.errors() == 0 ? 0 : 1;
+  return status_of(tally.errors() == 0);
 }
 
-/// Returns the exit status.
-int stress_command(const StressCommand& command) {
+ExitStatus stress_command(const StressCommand& command) {
+  if (command.every != 1 && !command.exhaustive && !command.units) {
+    throw OptionError(
+        fmt::format("--every is {}; legal above 1: with --exhaustive or --exhaustive-units", command.every));
+  }
   const Fidelity fidelity = fidelity_of(command.fidelity);
   require(fidelity, command.core.core() != Core::kAuto, "--core", &FidelityInfo::core);
+  command.rtl.check(fidelity);
   RunOptions options;
   command.rtl.apply(options);
   options.watch.core = command.core.core();
@@ -154,13 +176,13 @@ int stress_command(const StressCommand& command) {
   if (command.sharpness) {
     stress::CampaignPlan plan = plan_of(command, config);
     plan.folder.clear();
-    return command.reports ? print_report_sharpness(plan) : print_sharpness(plan);
+    return status_of(command.reports ? print_report_sharpness(plan) : print_sharpness(plan));
   }
   const stress::CampaignPlan plan = plan_of(command, config);
   if (!command.write.empty()) {
     stress::write_cases(plan.families, plan.precision, plan.seed, command.cases.value_or(1), command.write);
     fmt::print("cases in {}\n", command.write);
-    return 0;
+    return ExitStatus::kDone;
   }
   const std::unique_ptr<stress::Subject> subject = make_subject(command, fidelity, config, options);
   ProgressBar bar("stress");
@@ -181,23 +203,19 @@ int stress_command(const StressCommand& command) {
   if (!command.out.empty()) {
     fmt::print("\nresults in {}\n", command.out);
   }
-  return state.sum().errors() == 0 ? 0 : 1;
+  return status_of(state.sum().errors() == 0);
 }
 
 }  // namespace
 
-void add_stress_command(CLI::App& app, int& status) {
+void add_stress_command(CLI::App& app, ExitStatus& status) {
   auto options = std::make_shared<StressCommand>();
   CLI::App* command = app.add_subcommand("stress",
                                          "draw what is hard on arithmetic, and judge it by exact arithmetic; "
                                          "exit status 1 where a law is broken");
   options->machine.add_to(*command);
-  std::vector<std::string> fidelities;
-  for (const FidelityInfo& fidelity : kFidelityInfo) {
-    fidelities.emplace_back(fidelity.name);
-  }
   CLI::Option* fidelity = command->add_option("--fidelity", options->fidelity, "selects the engine")
-                              ->check(CLI::IsMember(fidelities))
+                              ->check(one_of_table(kFidelityInfo, &FidelityInfo::name))
                               ->capture_default_str();
   options->core.add_to(*command);
   CLI::Option* engine = command
@@ -229,14 +247,14 @@ void add_stress_command(CLI::App& app, int& status) {
                             ->add_option("--family", options->families,
                                          "families of cases, or scenes of --reports (default: all families)")
                             ->delimiter(',')
-                            ->check(CLI::IsMember(names));
+                            ->check(one_of(names));
   CLI::Option* reports =
       command
           ->add_flag("--reports", options->reports,
                      "scenes from public reports of seams and holes instead of the families")
           ->excludes(family);
   command->add_option("--depth", options->depth, "depth format")
-      ->check(CLI::IsMember({"unorm16", "unorm24", "float32"}))
+      ->check(one_of({"unorm16", "unorm24", "float32"}))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the cases")->capture_default_str();
   command->add_option("--samples", options->samples, "samples to judge, in all sittings")->check(kFromOne);
@@ -259,7 +277,26 @@ void add_stress_command(CLI::App& app, int& status) {
   CLI::Option* units = command->add_flag(
       "--exhaustive-units", options->units,
       "instead: the same through the units alone, in both windings, at two places, with all tile sizes");
+  command->add_option("--every", options->every, "of --exhaustive: of the least vertices only one of so many")
+      ->check(CLI::Range(1U, stress::kGridPoints))
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "of --exhaustive-units")
+      ->needs(units)
+      ->check(CLI::Range(1, kMostThreads))
+      ->capture_default_str();
   // What a job does not look at is refused.
+  const auto refuse = [command](CLI::Option* job, std::initializer_list<const char*> names) {
+    for (const char* name : names) {
+      job->excludes(command->get_option(name));
+    }
+  };
+  refuse(write, {"--samples", "--seconds", "--depth-bound"});
+  for (CLI::Option* grid : {exhaustive, units}) {
+    refuse(grid, {"--family", "--depth", "--depth-bound", "--seed", "--samples", "--cases", "--seconds"});
+  }
+  for (CLI::Option* without_core : {engine, write, sharpness, units}) {
+    refuse(without_core, {"--core"});
+  }
   for (CLI::Option* instead : {write, sharpness, exhaustive, units}) {
     instead->excludes(out);
     if (instead != exhaustive) {
@@ -269,12 +306,6 @@ void add_stress_command(CLI::App& app, int& status) {
   units->excludes(write)->excludes(sharpness);
   reports->excludes(exhaustive)->excludes(units);
   write->excludes(sharpness);
-  command->add_option("--every", options->every, "of --exhaustive: of the least vertices only one of so many")
-      ->check(CLI::Range(1U, stress::kGridPoints))
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "of --exhaustive-units")
-      ->check(CLI::Range(1, kMostThreads))
-      ->capture_default_str();
   command->callback([options, &status] { status = stress_command(*options); });
 }
 

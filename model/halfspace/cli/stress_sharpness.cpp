@@ -35,7 +35,7 @@ std::string short_address(std::string_view address) {
 
 }  // namespace
 
-int print_sharpness(const stress::CampaignPlan& plan) {
+bool print_sharpness(const stress::CampaignPlan& plan) {
   stress::CampaignPlan scenes = plan;
   scenes.families.clear();
   for (const stress::Family& scene : stress::reports()) {
@@ -64,10 +64,10 @@ int print_sharpness(const stress::CampaignPlan& plan) {
                              : "only scenes of reports: ",
                fmt::join(found, ", "));
   }
-  return all_found ? 0 : 1;
+  return all_found;
 }
 
-int print_report_sharpness(const stress::CampaignPlan& plan) {
+bool print_report_sharpness(const stress::CampaignPlan& plan) {
   std::vector<std::vector<std::string>> failing(plan.families.size());
   const auto add = [&](std::string_view name, stress::Subject& subject) {
     const stress::CampaignState state = run(plan, subject);
@@ -102,7 +102,7 @@ int print_report_sharpness(const stress::CampaignPlan& plan) {
                scene.report, scene.looks, scene.law, found ? fmt::format("`{}`", scene.suspect) : "**none**",
                fmt::join(failing[i], ", "));
   }
-  return all_found ? 0 : 1;
+  return all_found;
 }
 
 }  // namespace halfspace

@@ -6,11 +6,11 @@
 namespace halfspace {
 
 /// Runs the campaign on every rasterizer that is wrong on purpose, and prints which families find it; where
-/// none of all families does, which scenes of reports. Returns the exit status: 0 where all are found.
-int print_sharpness(const stress::CampaignPlan& plan);
+/// none of all families does, which scenes of reports. Returns whether all are found.
+bool print_sharpness(const stress::CampaignPlan& plan);
 
 /// The same on the textbook rasterizers too, by the scene of a report: which of them show what was reported.
-/// Returns the exit status: 0 where each scene finds its suspect.
-int print_report_sharpness(const stress::CampaignPlan& plan);
+/// Returns whether each scene finds its suspect.
+bool print_report_sharpness(const stress::CampaignPlan& plan);
 
 }  // namespace halfspace

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/units/hi_z_bounds.hpp"
 
@@ -161,7 +162,7 @@ const Key& find_key(std::string_view name) {
     if (name.starts_with(each.was)) {
       const std::string now = std::string(each.is) + std::string(name.substr(each.was.size()));
       if (find(now) != keys().end()) {
-        throw InputError(fmt::format("unknown configuration key '{}'; it is '{}' now", name, now));
+        throw OptionError(fmt::format("unknown configuration key '{}'; it is '{}' now", name, now));
       }
     }
   }
@@ -169,7 +170,8 @@ const Key& find_key(std::string_view name) {
   for (const Key& key : keys()) {
     names.push_back(key.name);
   }
-  throw InputError(fmt::format("unknown configuration key '{}'; legal: {}", name, fmt::join(names, ", ")));
+  throw OptionError(fmt::format("unknown configuration key '{}'{}; legal: {}", name,
+                                did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::string text_of_node(const toml::node& node, const Key& key, const std::string& name) {
@@ -246,8 +248,8 @@ void set_config(Config& config, std::string_view key, std::string_view value) {
   const Key& found = find_key(key);
   const std::optional<int> parsed = parse_value(found.legal, value);
   if (!parsed) {
-    throw InputError(
-        fmt::format("configuration key '{}' is '{}'; legal: {}", key, value, legal_text(found.legal)));
+    throw OptionError(fmt::format("configuration key '{}' is '{}'{}; legal: {}", key, value,
+                                  did_you_mean(value, found.legal.words), legal_text(found.legal)));
   }
   found.set(config, *parsed);
 }
@@ -255,7 +257,7 @@ void set_config(Config& config, std::string_view key, std::string_view value) {
 void set_config(Config& config, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) {
-    throw InputError(fmt::format("'{}' is not a setting; it must read KEY=VALUE", assignment));
+    throw OptionError(fmt::format("'{}' is not a setting; it must read KEY=VALUE", assignment));
   }
   set_config(config, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
@@ -271,7 +273,7 @@ Config read_config(const std::filesystem::path& path) {
 void validate(const Config& config) {
   const auto demand = [](bool legal, const char* key, int value, const std::string& what) {
     if (!legal) {
-      throw InputError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
+      throw OptionError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
     }
   };
   const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;

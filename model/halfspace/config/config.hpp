@@ -67,11 +67,11 @@ std::vector<ConfigKey> config_keys(const Config& config);
 /// Whether both differ in keys of time only: then the same packets pass through both machines.
 [[nodiscard]] bool same_packets(const Config& a, const Config& b);
 
-/// Sets `key` from text. Throws InputError for an unknown key, with the new name of one that was renamed, or
+/// Sets `key` from text. Throws OptionError for an unknown key, with the new name of one that was renamed, or
 /// an illegal value.
 void set_config(Config& config, std::string_view key, std::string_view value);
 
-/// Applies "key=value". Throws InputError.
+/// Applies "key=value". Throws OptionError.
 void set_config(Config& config, std::string_view assignment);
 
 /// Reads a TOML file over the defaults. Throws InputError that names file, key, value and what is legal.
@@ -80,7 +80,7 @@ Config read_config(const std::filesystem::path& path);
 /// The same from text; `name` stands for it in errors.
 Config parse_config(std::string_view toml, const std::string& name);
 
-/// Checks what no single key can: sizes that must fit each other. Throws InputError.
+/// Checks what no single key can: sizes that must fit each other. Throws OptionError.
 void validate(const Config& config);
 
 /// The whole configuration as a TOML document, every key with its help.

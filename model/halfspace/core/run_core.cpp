@@ -27,7 +27,7 @@ Core core_of(const Config& config, const Watch& watch, const StreamReader* reade
   }
   const std::string_view gap = fast::gap(config, watch, reader);
   if (watch.core == Core::kFast && !gap.empty()) {
-    throw InputError(fmt::format("core is 'fast', which does not cover {}; legal: auto, readable", gap));
+    throw OptionError(fmt::format("core is 'fast', which does not cover {}; legal: auto, readable", gap));
   }
   return gap.empty() ? Core::kFast : Core::kReadable;
 }

@@ -7,13 +7,13 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/ledger/accounts.hpp"
 #include "halfspace/machine/frame_result.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace::ledger {
@@ -34,9 +34,9 @@ struct Ledger {
 };
 
 /// Two numbers that have to be equal are not: a bug of the model. what() names both.
-class LedgerError : public std::runtime_error {
+class LedgerError : public DisagreementError {
  public:
-  using std::runtime_error::runtime_error;
+  using DisagreementError::DisagreementError;
 };
 
 /// The ledger of `frame` on the machine of `config`, both valid; `counted` is a run of them. Throws

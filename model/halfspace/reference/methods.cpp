@@ -40,7 +40,7 @@ const Method& method_of(std::string_view name) {
     if (method.name == name) return method;
     legal += (legal.empty() ? "" : ", ") + std::string(method.name);
   }
-  throw InputError("reference '" + std::string(name) + "' does not exist; legal: " + legal);
+  throw OptionError("reference '" + std::string(name) + "' does not exist; legal: " + legal);
 }
 
 }  // namespace halfspace::reference

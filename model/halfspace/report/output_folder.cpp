@@ -2,11 +2,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -44,39 +42,31 @@ bool is_result(const fs::path& folder) {
          is_result(folder, kLedgerFile, kLedgerSchema);
 }
 
+/// Without a slash at its end. Throws InputError where it is a file or holds other files.
+fs::path checked(const fs::path& given) {
+  fs::path place = fs::absolute(given).lexically_normal();
+  if (!place.has_filename()) {
+    place = place.parent_path();
+  }
+  std::error_code error;
+  if (fs::exists(place, error) && !fs::is_directory(place, error)) {
+    throw InputError(fmt::format("{}: is a file; the output must be a folder", given.string()));
+  }
+  if (fs::is_directory(place, error) && !fs::is_empty(place, error) && !is_result(place)) {
+    throw InputError(fmt::format(
+        "{}: holds files that are not of an earlier run; name a new or an empty folder", given.string()));
+  }
+  fs::create_directories(place.parent_path(), error);
+  return place;
+}
+
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& place) : place_(fs::absolute(place).lexically_normal()) {
-  if (!place_.has_filename()) {
-    place_ = place_.parent_path();
-  }
-  std::error_code error;
-  if (fs::exists(place_, error) && !fs::is_directory(place_, error)) {
-    throw InputError(fmt::format("{}: is a file; the output must be a folder", place.string()));
-  }
-  if (fs::is_directory(place_, error) && !fs::is_empty(place_, error) && !is_result(place_)) {
-    throw InputError(fmt::format(
-        "{}: holds files that are not of an earlier run; name a new or an empty folder", place.string()));
-  }
-  fs::create_directories(place_.parent_path(), error);
-  std::string pattern =
-      (place_.parent_path() / fmt::format(".{}.XXXXXX", place_.filename().string())).string();
-  if (mkdtemp(pattern.data()) == nullptr) {
-    throw InputError(fmt::format("{}: cannot be made: {}", place.string(), std::strerror(errno)));
-  }
-  staging_ = pattern;
-  fs::permissions(staging_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                                fs::perms::others_read | fs::perms::others_exec);
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code error;
-  fs::remove_all(staging_, error);
-}
+OutputFolder::OutputFolder(const fs::path& place) : place_(checked(place)), staging_(place_) {}
 
 fs::path OutputFolder::file(const std::string& name) {
   files_.push_back(name);
-  return staging_ / name;
+  return staging_.path() / name;
 }
 
 void OutputFolder::write(const std::string& name, const std::string& text) {
@@ -94,7 +84,7 @@ void OutputFolder::commit() {
   // name.
   const bool replace = fs::exists(place_);
   const unsigned flags = replace ? RENAME_EXCHANGE : RENAME_NOREPLACE;
-  if (renameat2(AT_FDCWD, staging_.c_str(), AT_FDCWD, place_.c_str(), flags) != 0) {
+  if (renameat2(AT_FDCWD, staging_.path().c_str(), AT_FDCWD, place_.c_str(), flags) != 0) {
     throw InputError(fmt::format("{}: cannot be put in place: {}", place_.string(), std::strerror(errno)));
   }
 }

@@ -5,18 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/report/staging_folder.hpp"
+
 namespace halfspace {
 
 /// Files are written to a hidden folder beside the final one, which commit() puts in place. Without commit()
-/// nothing is left behind. An earlier result at the place is replaced as a whole; a folder that holds
-/// anything else is refused.
+/// nothing is left behind; what a process leaves that is killed, the next one removes. An earlier result at
+/// the place is replaced as a whole; a folder that holds anything else is refused.
 class OutputFolder {
  public:
   /// Throws InputError when the place cannot be written or holds other files.
   explicit OutputFolder(const std::filesystem::path& place);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
-  ~OutputFolder();
+  ~OutputFolder() = default;
 
   /// The path to write file `name` to; it becomes part of the result.
   std::filesystem::path file(const std::string& name);
@@ -31,7 +33,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path place_;
-  std::filesystem::path staging_;
+  StagingFolder staging_;
   std::vector<std::string> files_;
 };
 

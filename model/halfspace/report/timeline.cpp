@@ -29,8 +29,8 @@ Timeline::Timeline(std::filesystem::path path, const Frame& frame, const Config&
                     [](const Command& command) { return command.kind == CommandKind::kDraw; }));
   if (choice_.draws) {
     if (choice_.draws->last >= draws) {
-      throw InputError(fmt::format("the timeline is to show draws {} to {}; '{}' has {}, counted from 0",
-                                   choice_.draws->first, choice_.draws->last, frame.name, draws));
+      throw OptionError(fmt::format("the timeline is to show draws {} to {}; '{}' has {}, counted from 0",
+                                    choice_.draws->first, choice_.draws->last, frame.name, draws));
     }
     chosen_ = false;
     for (Counter& counter : counters_) {
@@ -215,7 +215,7 @@ std::string Timeline::arguments(PacketKind work) const {
 /// Counts an event, and gives the place to write it to.
 fmt::memory_buffer& Timeline::begin_event() {
   if (++events_ > kMostTimelineEvents) {
-    throw InputError(
+    throw OptionError(
         fmt::format("the timeline has more than {} events; choose a part of the frame with --timeline-draws "
                     "or --timeline-cycles",
                     kMostTimelineEvents));
@@ -235,8 +235,8 @@ void Timeline::empty_buffer() {
 
 void Timeline::finish(std::uint64_t cycles) {
   if (choice_.cycles && choice_.cycles->first >= cycles) {
-    throw InputError(fmt::format("the timeline is to begin in cycle {}; the frame's last is {}",
-                                 choice_.cycles->first, cycles - 1));
+    throw OptionError(fmt::format("the timeline is to begin in cycle {}; the frame's last is {}",
+                                  choice_.cycles->first, cycles - 1));
   }
   for (std::size_t i = 0; i < kLinks; ++i) {
     return_credits(i, cycles);

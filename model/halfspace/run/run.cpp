@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 void check_options(Fidelity fidelity, const RunOptions& options) {
   if (options.watch.threads < 1 || options.watch.threads > kMostThreads) {
-    throw InputError(fmt::format("threads is {}; legal: 1 to {}", options.watch.threads, kMostThreads));
+    throw OptionError(fmt::format("threads is {}; legal: 1 to {}", options.watch.threads, kMostThreads));
   }
   require(fidelity, options.watch.core != Core::kAuto, "a core of its own", &FidelityInfo::core);
   require(fidelity, options.watch.threads > 1, "more threads than one", &FidelityInfo::threads);
@@ -94,15 +95,16 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
 Fidelity fidelity_of(std::string_view name) {
   const auto* const found = std::ranges::find(kFidelityInfo, name, &FidelityInfo::name);
   if (found == kFidelityInfo.end()) {
-    throw InputError(fmt::format("fidelity is '{}'; legal: {}", name, fidelity_names()));
+    throw OptionError(fmt::format("fidelity is '{}'{}; legal: {}", name,
+                                  did_you_mean(name, kFidelityInfo, &FidelityInfo::name), fidelity_names()));
   }
   return found->fidelity;
 }
 
 void require(Fidelity fidelity, bool given, std::string_view option, bool FidelityInfo::*support) {
   if (given && !(info(fidelity).*support)) {
-    throw InputError(fmt::format("fidelity is '{}', which does not support {}; legal with it: {}",
-                                 info(fidelity).name, option, fidelity_names(support)));
+    throw OptionError(fmt::format("fidelity is '{}', which does not support {}; legal with it: {}",
+                                  info(fidelity).name, option, fidelity_names(support)));
   }
 }
 

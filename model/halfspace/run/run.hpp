@@ -17,10 +17,10 @@
 
 namespace halfspace {
 
-/// The fidelity of this name. Throws InputError, with the legal names.
+/// The fidelity of this name. Throws OptionError, with the legal names.
 Fidelity fidelity_of(std::string_view name);
 
-/// Throws InputError, with the legal names, where `option` is given and the fidelity does not support it.
+/// Throws OptionError, with the legal names, where `option` is given and the fidelity does not support it.
 void require(Fidelity fidelity, bool given, std::string_view option, bool FidelityInfo::*support);
 
 struct RunOptions {
@@ -40,10 +40,10 @@ struct RunOptions {
 std::unique_ptr<rtl::VerilatedPipeline> verilated_pipeline(const Config& config, const RunOptions& options);
 
 /// Runs `frame` on the machine of `config`, both valid. Image, counters and events are the same in every
-/// fidelity. Throws InputError where an option is given that the fidelity does not support or whose value is
-/// not legal, or where no verilated pipeline fits; RtlError and systemc::DeadlockError where a machine comes
-/// to rest with work left. Not for several threads at a time in `systemc`. With `options.watch.threads` above
-/// 1 the cycle observer is called in another thread than the packet observer.
+/// fidelity. Throws OptionError where an option is given that the fidelity does not support or whose value is
+/// not legal, InputError where no verilated pipeline fits; RtlError and systemc::DeadlockError where a
+/// machine comes to rest with work left. Not for several threads at a time in `systemc`. With
+/// `options.watch.threads` above 1 the cycle observer is called in another thread than the packet observer.
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options = {});
 
 }  // namespace halfspace

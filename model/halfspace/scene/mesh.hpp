@@ -42,15 +42,12 @@ struct Mesh {
   std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "3 points and lines"
 };
 
-/// Whether the extension is .obj, .ply, .gltf or .glb.
-[[nodiscard]] bool is_mesh(const std::filesystem::path& path);
-
-/// The mesh in an .obj, .ply, .gltf or .glb file (by extension; its bytes may be packed by gzip or xz).
-/// Polygons are triangulated; a glTF scene's instances are written out. Materials, images and all vertex
-/// attributes but the position are passed over; whatever else of the file is not in the mesh is listed in
-/// `left_out`. No material or image file is opened; buffers of a glTF file are only from its own folder or
-/// below. Throws InputError when the file cannot be read, is damaged or contradicts itself, has no triangle,
-/// or has more than kMaxMeshVertices positions or kMaxMeshTriangles triangles.
+/// The mesh in an .obj, .ply, .gltf or .glb file (by extension, as load() takes it; its bytes may be packed
+/// by gzip or xz). Polygons are triangulated; a glTF scene's instances are written out. Materials, images and
+/// all vertex attributes but the position are passed over; whatever else of the file is not in the mesh is
+/// listed in `left_out`. No material or image file is opened; buffers of a glTF file are only from its own
+/// folder or below. Throws InputError when the file cannot be read, is damaged or contradicts itself, has no
+/// triangle, or has more than kMaxMeshVertices positions or kMaxMeshTriangles triangles.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace halfspace

@@ -13,6 +13,8 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/compression.hpp"
+#include "halfspace/scene/input_name.hpp"
+#include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/validate.hpp"
 
 namespace halfspace {
@@ -220,13 +222,6 @@ std::uint32_t count32(const Frame& frame, std::string_view section, std::size_t 
   return static_cast<std::uint32_t>(count);
 }
 
-/// "folder/name.ptf.xz" -> "name".
-std::string frame_name(std::filesystem::path path) {
-  path = path.filename();
-  if (path.extension() == ".xz" || path.extension() == ".gz") path = path.stem();
-  return display_name(path.extension() == ".ptf" ? path.stem() : path);
-}
-
 }  // namespace
 
 Frame parse_ptf(std::span<const std::byte> bytes, std::string_view name) {
@@ -261,7 +256,7 @@ Frame parse_ptf(std::span<const std::byte> bytes, std::string_view name) {
 
 Frame read_ptf(const std::filesystem::path& path) {
   Frame frame = parse_ptf(read_bytes(path), display_name(path));
-  frame.name = frame_name(path);
+  frame.name = printable(input_name(path).stem);
   return frame;
 }
 
@@ -293,12 +288,13 @@ std::vector<std::byte> format_ptf(const Frame& frame) {
 
 void write_ptf(const Frame& frame, const std::filesystem::path& path) {
   const std::vector<std::byte> plain = format_ptf(frame);
-  if (path.extension() == ".gz") {
-    write_bytes(path, compress_gzip(plain));
-  } else if (path.extension() == ".xz") {
-    write_bytes(path, compress_xz(plain));
-  } else {
-    write_bytes(path, plain);
+  switch (input_name(path).packing) {
+    case Packing::kNone:
+      return write_bytes(path, plain);
+    case Packing::kGzip:
+      return write_bytes(path, compress_gzip(plain));
+    case Packing::kXz:
+      return write_bytes(path, compress_xz(plain));
   }
 }
 

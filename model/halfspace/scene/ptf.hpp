@@ -24,7 +24,7 @@ namespace halfspace {
 /// Throws InputError when a section has more entries than 32 bits count. The frame is not validated.
 [[nodiscard]] std::vector<std::byte> format_ptf(const Frame& frame);
 
-/// Writes the frame, whole or not at all; packed if the path ends in .gz or .xz.
+/// Writes the frame, whole or not at all; packed if the path ends in .gz or .xz, as in input_name.hpp.
 void write_ptf(const Frame& frame, const std::filesystem::path& path);
 
 }  // namespace halfspace

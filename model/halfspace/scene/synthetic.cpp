@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/numerics/split_mix.hpp"
 #include "halfspace/scene/quote.hpp"
@@ -461,8 +462,8 @@ Frame synthetic_frame(std::string_view name, DepthFormat depth) {
     for (const SyntheticInfo& each : kInfos) {
       names += fmt::format("{}{}", names.empty() ? "" : ", ", each.name);
     }
-    throw InputError(
-        fmt::format("{}{}: no such frame; legal names: {}", kSyntheticPrefix, printable(name), names));
+    throw InputError(fmt::format("{}{}: no such frame{}; legal names: {}", kSyntheticPrefix, printable(name),
+                                 did_you_mean(kind, kInfos, &SyntheticInfo::name), names));
   }
   if (full && name.substr(colon + 1) != kFull) {
     throw InputError(fmt::format("{}{}: what follows the name is {}; legal: {}{} or {}{}:{}",

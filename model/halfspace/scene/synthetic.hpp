@@ -7,10 +7,9 @@
 #include <string_view>
 
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/scene/input_name.hpp"
 
 namespace halfspace {
-
-inline constexpr std::string_view kSyntheticPrefix = "synthetic:";
 
 struct SyntheticInfo {
   std::string_view name;

@@ -85,7 +85,7 @@ CampaignState found_state(const CampaignPlan& plan, const Subject& subject) {
   };
   const auto refuse = [&](std::string_view what, const auto& there, const auto& here) {
     if (there != here) {
-      throw InputError(
+      throw OptionError(
           fmt::format("{}: the campaign's {} is '{}'; it must be '{}', or the folder another one",
                       path.string(), what, here, there));
     }

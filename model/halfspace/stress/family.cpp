@@ -54,7 +54,7 @@ const Family& family_of(std::string_view name) {
       names += fmt::format("{}{}", names.empty() ? "" : ", ", family.name);
     }
   }
-  throw InputError(fmt::format("family is '{}'; it must be one of {}", name, names));
+  throw OptionError(fmt::format("family is '{}'; it must be one of {}", name, names));
 }
 
 std::string to_text(const Precision& precision) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/barycentric.hpp"
 #include "halfspace/reference/clipped_triangle.hpp"
@@ -325,7 +326,8 @@ const WrongRasterizer& wrong_rasterizer(std::string_view name) {
     }
     names += fmt::format("{}{}", names.empty() ? "" : ", ", wrong.name);
   }
-  throw InputError(fmt::format("wrong rasterizer is '{}'; it must be one of {}", name, names));
+  throw OptionError(fmt::format("wrong rasterizer is '{}'{}; it must be one of {}", name,
+                                did_you_mean(name, kWrong, &WrongRasterizer::name), names));
 }
 
 std::unique_ptr<Subject> wrong_subject(const WrongRasterizer& wrong, const Precision& precision) {

@@ -16,7 +16,7 @@ constexpr std::uint8_t kWhole = 0xF;
 
 std::size_t checked(int buffer) {
   if (buffer < 0 || buffer > kMostMergeQuads) {
-    throw InputError(fmt::format("quads held for merging are {}; legal: 0 to {}", buffer, kMostMergeQuads));
+    throw OptionError(fmt::format("quads held for merging are {}; legal: 0 to {}", buffer, kMostMergeQuads));
   }
   return static_cast<std::size_t>(buffer);
 }

@@ -16,24 +16,24 @@ namespace {
 
 void check(const WhatIf& what_if, std::size_t frames) {
   if (what_if.lod_pixels && !(std::isfinite(*what_if.lod_pixels) && *what_if.lod_pixels > 0)) {
-    throw InputError(fmt::format("lod is {} pixels; legal: a finite number above 0", *what_if.lod_pixels));
+    throw OptionError(fmt::format("lod is {} pixels; legal: a finite number above 0", *what_if.lod_pixels));
   }
   if (what_if.delay && (*what_if.delay < 1 || *what_if.delay > kMaxFrameTriangles)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("delay is {} triangles; legal: 1 to {}", *what_if.delay, kMaxFrameTriangles));
   }
   if (what_if.prepass && what_if.delay) {
-    throw InputError(
+    throw OptionError(
         fmt::format("prepass is given with delay {}; legal: one of them, for a prepass is the longest delay",
                     *what_if.delay));
   }
   if (what_if.order && what_if.alternate) {
-    throw InputError(
+    throw OptionError(
         fmt::format("sort is '{}' with order 'alternate'; legal: one of them, for both order the draws",
                     *what_if.order == SortOrder::kFrontToBack ? "front-to-back" : "back-to-front"));
   }
   if (what_if.alternate && frames < 2) {
-    throw InputError(fmt::format(
+    throw OptionError(fmt::format(
         "order is 'alternate' with {} frame; legal: with two or more, one after the other", frames));
   }
 }

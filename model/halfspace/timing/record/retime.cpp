@@ -19,7 +19,7 @@ void check_retimable(const FrameRecord& record, const Config& config) {
     const Config& recorded = record.config;
     const int parts = recorded.z_cache.parts;
     if (config.z_cache.parts != parts && (recorded.hi_z.enabled || recorded.z_cache.compression)) {
-      throw InputError(
+      throw OptionError(
           fmt::format("configuration key 'z_cache.parts' is {}, the record of {} was made with {}: with hi_z "
                       "or coded lines it changes more than cycles; legal: {}, or a new record",
                       config.z_cache.parts, record.name, parts, parts));
@@ -30,7 +30,7 @@ void check_retimable(const FrameRecord& record, const Config& config) {
   const std::vector<ConfigKey> wanted = config_keys(config);
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     if (!recorded[i].timing && recorded[i].value != wanted[i].value) {
-      throw InputError(
+      throw OptionError(
           fmt::format("configuration key '{}' is {}, the record of {} was made with {}: it changes packets, "
                       "not only their cycles; legal: {}, or a new record",
                       recorded[i].name, wanted[i].value, record.name, recorded[i].value, recorded[i].value));

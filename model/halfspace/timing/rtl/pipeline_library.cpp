@@ -60,10 +60,11 @@ std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config, const fs:
     }
     names.push_back(file.stem().string().substr(std::string(kPrefix).size()));
   }
-  throw InputError(
-      fmt::format("no verilated pipeline of this configuration in {} (there: {}); `make rtl` builds those of "
-                  "the CMake variable HALFSPACE_RTL_CONFIGS",
-                  folder.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+  throw InputError(fmt::format(
+      "no verilated pipeline of this configuration in {} (there: {}); `make rtl` builds those of the CMake "
+      "variable HALFSPACE_RTL_CONFIGS into build/release/lib/halfspace of the source tree, and --rtl-folder "
+      "names that folder to an installed program",
+      folder.string(), names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 }  // namespace halfspace::rtl

@@ -1,14 +1,14 @@
 /// What a run of the verilated pipeline throws.
 #pragma once
 
-#include <stdexcept>
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 
 /// The RTL came to rest with work left, or one of its assertions failed.
-class RtlError : public std::runtime_error {
+class RtlError : public DisagreementError {
  public:
-  using std::runtime_error::runtime_error;
+  using DisagreementError::DisagreementError;
 };
 
 }  // namespace halfspace

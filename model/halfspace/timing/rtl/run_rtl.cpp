@@ -18,7 +18,7 @@ void check_options(const EngineOptions& options) {
   for (std::size_t i = 0; i < kStallPoints; ++i) {
     const auto point = static_cast<StallPoint>(i);
     if (options.stalls.rate[i].any() && point != StallPoint::kSource && point != StallPoint::kSink) {
-      throw InputError(fmt::format("stalls at '{}'; legal for the RTL: source, sink", kStallPointName[i]));
+      throw OptionError(fmt::format("stalls at '{}'; legal for the RTL: source, sink", kStallPointName[i]));
     }
   }
 }

@@ -4,12 +4,12 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <systemc>
 #include <tlm>
 #include <vector>
 
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/engine.hpp"
 #include "halfspace/timing/systemc/run_state.hpp"
 #include "halfspace/timing/systemc/source.hpp"
@@ -18,9 +18,9 @@
 namespace halfspace::systemc {
 
 /// Nothing can happen any more, and there is work left. what() lists the state of every link and stage.
-class DeadlockError : public std::runtime_error {
+class DeadlockError : public DisagreementError {
  public:
-  using std::runtime_error::runtime_error;
+  using DisagreementError::DisagreementError;
 };
 
 /// Registers of RasterPipeline::commands: byte addresses of words of 4 bytes, little endian. An access to

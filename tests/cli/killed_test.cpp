@@ -1,0 +1,56 @@
+// A run that is killed, and the next one into the same place.
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "program.hpp"
+
+using namespace halfspace::testing;
+
+namespace {
+
+std::string hidden_in(const fs::path& folder) {
+  for (const std::string& name : entries(folder)) {
+    if (name.starts_with('.')) return name;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("run: what a killed run leaves the next one removes, while a live one keeps its own") {
+  const Place place;
+  const fs::path results = place.path / "results";
+  fs::create_directory(results);
+  const std::string out = (results / "r").string();
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const int null = open("/dev/null", O_WRONLY);
+    dup2(null, STDOUT_FILENO);
+    // Minutes of work: it is alive as long as the test wants.
+    execl(HALFSPACE_PROGRAM, HALFSPACE_PROGRAM, "run", "synthetic:random_122:full", "--fidelity", "systemc",
+          "--out", out.c_str(), nullptr);
+    _exit(127);
+  }
+  for (int i = 0; i < 600 && hidden_in(results).empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  const std::string staging = hidden_in(results);
+  CHECK(!staging.empty());
+  const std::string run = "run " + scene("vkcube.ptf.xz") + " --no-pictures --out " + out;
+  CHECK(place.run(run).status == 0);
+  CHECK(entries(results) == std::set<std::string>{"r", staging});
+  kill(child, SIGKILL);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(entries(results) == std::set<std::string>{"r", staging});
+  CHECK(place.run(run).status == 0);
+  CHECK(entries(results) == std::set<std::string>{"r"});
+}
