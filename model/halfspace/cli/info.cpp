@@ -5,6 +5,7 @@
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/synthetic.hpp"
 
 namespace halfspace {
@@ -77,6 +78,9 @@ void info(const InfoOptions& options) {
         t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
     fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height, name(t.depth_format),
                surface, t.color_count, t.presented ? " presented" : "");
+  }
+  for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
+    fmt::print("camera {}: {}\n", i, printable(frame.cameras[i]));
   }
   for (std::size_t i = 0; options.commands && i < frame.commands.size(); ++i) {
     print_command(i, frame.commands[i]);
