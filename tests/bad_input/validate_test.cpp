@@ -85,6 +85,16 @@ const FrameRule kFrameRules[] = {
     {[](Frame& f) { draw(f).scissor.width = -1; }, kDraw + "scissor.width is -1; legal: 0 to 2147483647"},
     {[](Frame& f) { clear(f).scissor.height = -5; }, kClear + "scissor.height is -5; legal: 0 to 2147483647"},
     // Draws.
+    {[](Frame& f) {
+       f.targets[1].width = f.targets[1].height = 16384;
+       f.targets.push_back(f.targets[1]);
+       draw(f).target = 1;
+       f.commands.push_back(draw(f));
+       f.commands.back().target = 2;
+     },
+     "small: command 2 (draw): targets without depth that are drawn to up to here have 536870912 pixels; "
+     "legal: "
+     "at most 268435456 in all"},
     {[](Frame& f) { draw(f).depth_func = DepthFunc{8}; }, kDraw + "depth_func is 8; legal: 0 to 7"},
     {[](Frame& f) { draw(f).flags = 2; },
      kDraw + "flags are 0x2, depth_write without depth_test; legal: depth_write only with depth_test"},
@@ -129,6 +139,12 @@ TEST_CASE("what looks odd but is legal") {
     draw(frame).depth_range = {1, 0};
     draw(frame).viewport = {0, 0, -8, 0};
     draw(frame).scissor = {-100, 100, 0, 0};
+  }
+  SECTION("any number of large targets without depth that nothing is drawn to, and one that is") {
+    frame.targets[1].width = frame.targets[1].height = 16384;
+    frame.targets.resize(100, frame.targets[1]);
+    draw(frame).target = 1;
+    frame.commands.push_back(draw(frame));
   }
   SECTION("a clear that leaves depth alone may say anything about it") {
     clear(frame).flags = static_cast<std::uint32_t>(Flag::kClearColor);

@@ -22,7 +22,7 @@ TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
   CHECK(entries(out) == expected);
   const Json stats = read_stats(out);
   CHECK(stats["files"].get<std::set<std::string>>() == expected);
-  CHECK(stats["schema_version"] == 4);
+  CHECK(stats["schema_version"] == 5);
   CHECK(stats["cycles"].is_null());
   CHECK(stats["seed"].is_null());
   CHECK(stats["stalls"].is_null());

@@ -174,6 +174,8 @@ void check_draw(const Place& place, const Frame& frame, const Command& draw) {
 void validate(const Frame& frame) {
   check_targets(frame);
   std::uint64_t triangles = 0;
+  std::vector<bool> drawn_to(frame.targets.size(), false);
+  std::uint64_t bare_pixels = 0;
   for (std::size_t i = 0; i < frame.commands.size(); ++i) {
     const Command& command = frame.commands[i];
     const bool draw = command.kind == CommandKind::kDraw;
@@ -196,6 +198,15 @@ void validate(const Frame& frame) {
       place.fail("triangles up to here are {}; legal: at most {} in a frame", triangles, kMaxFrameTriangles);
     }
     check_draw(place, frame, command);
+    const Target& target = frame.targets[command.target];
+    if (target.depth_surface != kNoSurface || drawn_to[command.target]) continue;
+    drawn_to[command.target] = true;
+    bare_pixels += std::uint64_t{target.width} * target.height;
+    if (bare_pixels > kMaxBarePixels) {
+      place.fail(
+          "targets without depth that are drawn to up to here have {} pixels; legal: at most {} in all",
+          bare_pixels, kMaxBarePixels);
+    }
   }
 }
 

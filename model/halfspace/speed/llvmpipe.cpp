@@ -257,7 +257,8 @@ class EglLlvmpipe final : public Llvmpipe {
 
   /// A renderbuffer for each depth surface and a framebuffer for each target.
   void make_targets() {
-    const std::vector<Surface> surfaces = make_surfaces(*frame_, *config_, Watch{.count_pixels = false});
+    const std::vector<Surface> all = make_surfaces(*frame_, *config_, Watch{.count_pixels = false});
+    const std::span<const Surface> surfaces = depth_surfaces(all);
     surfaces_.assign(surfaces.size(), 0);
     gl_.GenRenderbuffers(static_cast<GLsizei>(surfaces_.size()), surfaces_.data());
     formats_.clear();
