@@ -164,6 +164,13 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
     CAPTURE(outcome.out);
     CHECK(outcome.status == 0);
   }
+  SECTION("a byte order mark in stats.json is none of its text") {
+    const fs::path stats = place.path / "b" / "stats.json";
+    const std::string text = slurp(stats);
+    std::ofstream(stats, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    CHECK(place.run(diff).status == 0);
+    CHECK(place.run(run + "/b").status == 0);  // it is still the result of a run
+  }
   SECTION("two runs with time are compared in time too") {
     REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);
     REQUIRE(place.run(run + "/b --fidelity recurrence").status == 0);

@@ -21,7 +21,7 @@ constexpr std::size_t kMostPlanes = 1 << 16;
 /// Whether front end and setup have vectors for the draw.
 bool takes_vectors(const DrawContext& draw, const Command& command) {
   const DepthFormat format = draw.setup.depth_format;
-  return !command.has(Flag::kPolygonOffset) &&
+  return !command.has(Flag::kPolygonOffset) && !command.is_unrestricted(format) &&
          (format == DepthFormat::kNone || draw.setup.interpolator == DepthInterpolator::kPlane);
 }
 
@@ -272,9 +272,9 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, bool 
   TileCodes<TileSize> codes;
   const passage::Tested tested = passage::z_test<TileSize>(triangle, burst, draw, stored, codes);
   if (stored != nullptr) {
-    const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize);
-    task_.tiles->z_min[at] = static_cast<std::int32_t>(*least);
-    task_.tiles->z_max[at] = static_cast<std::int32_t>(*most);
+    const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize, is_nearer);
+    task_.tiles->z_min[at] = code_order(*least);
+    task_.tiles->z_max[at] = code_order(*most);
     task_.tiles->change(block);
   }
   if (task_.counts_pixels || draw.keeps_visible || draw.sums != nullptr) {

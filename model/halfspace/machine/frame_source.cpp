@@ -24,14 +24,19 @@ FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserve
       draws_(draws) {
   surfaces_of_targets_ = surfaces_of_targets(frame, surfaces);
   depth_written_.assign(surfaces.size(), false);
+  unrestricted_.assign(surfaces.size(), false);
   for (const Command& command : frame.commands) {
-    if (command.kind != CommandKind::kDraw) {
+    const bool is_draw = command.kind == CommandKind::kDraw;
+    draws_in_frame_ += is_draw ? 1 : 0;
+    const Target& target = frame.targets[command.target];
+    if (target.depth_surface == kNoSurface) {
       continue;
     }
-    ++draws_in_frame_;
-    const std::uint32_t surface = frame.targets[command.target].depth_surface;
-    if (command.has(Flag::kDepthWrite) && surface != kNoSurface) {
-      depth_written_[surface] = true;
+    if (is_draw && command.has(Flag::kDepthWrite)) {
+      depth_written_[target.depth_surface] = true;
+    }
+    if (command.is_unrestricted(target.depth_format)) {
+      unrestricted_[target.depth_surface] = true;
     }
   }
 }
@@ -96,6 +101,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.first_triangle = first_triangle_;
   draw.setup = setup_state(command, target, format, config_);
   draw.early_z = early_z_state(command, format, config_);
+  draw.early_z.unrestricted = unrestricted_[number];
   draw.discard = shader_discard(config_);
   draw.keeps_visible = !surface.visible.empty() && (draw.early_z.write || !depth_written_[number]);
   draw.sums = surface.sums.empty() ? nullptr : &surface.sums;
@@ -140,6 +146,7 @@ void FrameSource::begin_clear(const Command& command) {
   draw.drawn_on = target.depth_surface;
   draw.setup = clear.setup;
   draw.early_z = clear.early_z;
+  draw.early_z.unrestricted = unrestricted_[target.depth_surface];
   draw.keeps_visible = !surface.visible.empty();
   draw_ = &draw;
   batch_.assign(clear.triangle.begin(), clear.triangle.end());

@@ -42,7 +42,7 @@ struct Surface {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint32_t> codes;  ///< depth as stored, see depth_code.hpp; empty where there is none
-  std::vector<float> depth;          ///< the same in [0,1]
+  std::vector<float> depth;          ///< the same as numbers
   std::vector<std::uint16_t>
       fragments;  ///< fragments that covered the pixel; stays at 65535 when it gets there
   std::vector<std::uint16_t> survivors;  ///< of these, the ones that passed the depth test
