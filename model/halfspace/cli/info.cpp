@@ -6,6 +6,7 @@
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/synthetic.hpp"
 
 namespace halfspace {
@@ -81,6 +82,9 @@ void info(const InfoOptions& options) {
   }
   if (!frame.left_out.empty()) {
     fmt::print("left out: {}\n", fmt::join(frame.left_out, ", "));
+  }
+  for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
+    fmt::print("camera {}: {}\n", i, printable(frame.cameras[i]));
   }
   for (std::size_t i = 0; options.commands && i < frame.commands.size(); ++i) {
     print_command(i, frame.commands[i]);

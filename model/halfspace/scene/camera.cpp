@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/mesh_camera.hpp"
 #include "halfspace/scene/validate.hpp"
 
 namespace halfspace {
@@ -137,13 +138,6 @@ double fitting_distance(std::span<const glm::dvec3> points, glm::dvec3 at, glm::
   return distance > 0 ? distance * (1 + kDepthMargin) : 1;
 }
 
-/// World to clip space, -w <= z <= w: first the eye is subtracted, which is exact or nearly so however far
-/// both are from the origin, then the rest is applied.
-struct View {
-  glm::dvec3 eye;
-  glm::dmat4 from_eye;
-};
-
 /// Near and far are around the points.
 View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::string_view name) {
   const double fov_y = glm::radians(camera.fov_degrees);
@@ -227,11 +221,15 @@ Command draw_command(const Camera& camera) {
 Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name) {
   check_camera(camera, name);
   check_mesh(mesh, name);
-  const View view = view_of(camera, used_positions(mesh, name), name);
+  const std::vector<glm::dvec3> points = used_positions(mesh, name);
+  const double aspect = static_cast<double>(camera.width) / camera.height;
+  const View view = camera.of_mesh ? view_of_mesh_camera(mesh, *camera.of_mesh, aspect, points, name)
+                                   : view_of(camera, points, name);
 
   Frame frame;
   frame.name = name;
   frame.left_out = mesh.left_out;
+  for (const MeshCamera& c : mesh.cameras) frame.cameras.push_back(c.name);
   frame.targets.push_back({.width = camera.width,
                            .height = camera.height,
                            .samples = 1,
