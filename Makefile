@@ -5,6 +5,7 @@ HALFSPACE := $(BUILD)/bin/halfspace
 PYTHON_TOOLS := .venv/.installed
 PLOT_TOOLS := .venv/.plot_installed
 PROVE_TOOLS := .venv/.prove_installed
+READ_TOOLS := .venv/.read_installed
 
 .DEFAULT_GOAL := help
 
@@ -106,6 +107,12 @@ bench-profile: build/release/build.ninja ## Sample where the fast core spends it
 	tools/profile_speed.py build/profile/bin/halfspace scenes/cc0_truck.ptf.xz $(CAPTURED) > out/speed/profile.md
 	tools/write_figures.py bench-profile --captured $(CAPTURED)
 
+.PHONY: bench-read
+bench-read: release-program $(READ_TOOLS) ## Measure the readers of meshes beside assimp (Debian: assimp-utils), trimesh and pyminiply; write docs/guides/meshes.md's table.
+	@mkdir -p out/read
+	.venv/bin/python tools/bench_read.py $(HALFSPACE) > out/read/read.md
+	tools/write_figures.py bench-read
+
 .PHONY: bench-history
 bench-history: speed $(PLOT_TOOLS) ## Measure the same, and append it to docs/speed_history.csv and its picture.
 	tools/bench_history.py out/speed/speed.json docs/speed_history.csv
@@ -152,6 +159,11 @@ $(PYTHON_TOOLS): tools/requirements.txt | packages
 	touch $@
 
 $(PLOT_TOOLS): tools/requirements-plot.txt | packages
+	/usr/bin/python3 -m venv .venv
+	.venv/bin/pip install --quiet --requirement $<
+	touch $@
+
+$(READ_TOOLS): tools/requirements-read.txt | packages
 	/usr/bin/python3 -m venv .venv
 	.venv/bin/pip install --quiet --requirement $<
 	touch $@

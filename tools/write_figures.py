@@ -129,6 +129,12 @@ def bench_surfaces(tools):
     return f"{processor()}; {method}.\n\n{rows}"
 
 
+def bench_read(tools):
+    """The table that tools/bench_read.py wrote; see the Makefile."""
+    method, rows = (ROOT / "out/read/read.md").read_text().strip().split("\n\n", 1)
+    return f"{processor()}; {method}.\n\n{rows}"
+
+
 def reference(tools):
     """Counts of the reference, a row for each depth surface with both ways to take late draws."""
     columns = ["triangles", "clipped", "culled", "drawn", "fragments", "passed (opaque 0 / 1)"]
@@ -528,10 +534,11 @@ FIGURES = {
     "bench-profile": ("docs/guides/speed.md", bench_profile),
     "bench-stages": ("docs/guides/speed.md", bench_stages),
     "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
+    "bench-read": ("docs/guides/meshes.md", bench_read),
 }
 # The others need the RTL, a profiler or minutes: a target of the Makefile each.
 SLOW = ("bench-idle", "idle-toggles", "depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profile")
-SLOW += ("bench-stages", "bench-surfaces")
+SLOW += ("bench-stages", "bench-surfaces", "bench-read")
 ALL = [name for name in FIGURES if name not in SLOW]
 
 

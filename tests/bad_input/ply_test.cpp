@@ -30,6 +30,13 @@ std::string error_of_ply(const std::string& text) {
 TEST_CASE("malformed PLY headers are refused") {
   const std::pair<std::string, std::string> cases[] = {
       {"", "f: does not start with a line \"ply\"; legal: a PLY header"},
+      {"ply", "f: does not start with a line \"ply\"; legal: a PLY header"},
+      {"plyx\n", "f: does not start with a line \"ply\"; legal: a PLY header"},
+      {"ply x\n", "f: does not start with a line \"ply\"; legal: a PLY header"},
+      {" \n", "f: does not start with a line \"ply\"; legal: a PLY header"},
+      {"\xFE\xFFply\n", "f: byte order mark is that of UTF-16 or UTF-32; legal: UTF-8, or none"},
+      {"ply\rformat ascii 1.0\r\nend_header\n",
+       "f: header ends without \"end_header\" after 3 lines; legal: a whole header"},
       {"PLY\n", "f: does not start with a line \"ply\"; legal: a PLY header"},
       {"ply\nformat ascii 1.0\n",
        "f: header ends without \"end_header\" after 3 lines; legal: a whole header"},
@@ -59,6 +66,8 @@ TEST_CASE("malformed PLY headers are refused") {
        "f: element \"vertex\" lacks x, y or z; legal: all three, not lists"},
       {header("element face 1\nproperty int vertex_indices\n") + "0",
        "f: element \"face\" has no list of integers vertex_indices or vertex_index; legal: one"},
+      {header("element vertex 0\n" + kXyz + "element tristrips 1\nproperty list int int strips\n") + "0",
+       "f: element \"tristrips\" has no list of integers vertex_indices or vertex_index; legal: one"},
       {header("element face 1\nproperty list uchar float vertex_indices\n") + "0",
        "f: element \"face\" has no list of integers vertex_indices or vertex_index; legal: one"},
   };
@@ -79,19 +88,32 @@ TEST_CASE("malformed PLY bodies are refused") {
        "f: mesh has 3 vertices and 0 triangles, without 1 faces with fewer than three corners; legal: 1 "
        "triangle or more"},
       {triangle("3 0 1 3"), "f: face 0 has vertex 3; legal: below 3"},
-      {triangle("3 0 1 -1"),
-       "f: property \"vertex_indices\" has the value -1; legal: an integer from 0 to 4294967295"},
-      {triangle("3 0 1 1.5"),
-       "f: property \"vertex_indices\" has the value 1.5; legal: an integer from 0 to 4294967295"},
-      {triangle("3 0 1 nan"),
-       "f: property \"vertex_indices\" has the value nan; legal: an integer from 0 to 4294967295"},
-      {triangle("-1 0 1 2"),
-       "f: property \"vertex_indices\" has the value -1; legal: an integer from 0 to 2147483647"},
+      {triangle("3 0 1 -1"), "f: face 0 has vertex -1; legal: below 3"},
+      {triangle("3 0 1 9223372036854775807"), "f: face 0 has vertex 9223372036854775807; legal: below 3"},
+      {triangle("3 0 1 1.5"), "f: property \"vertex_indices\" has the value 1.5; legal: an integer"},
+      {triangle("3 0 1 nan"), "f: property \"vertex_indices\" has the value nan; legal: an integer"},
+      {triangle("3 0 1 1e99"), "f: property \"vertex_indices\" has the value 1e+99; legal: an integer"},
+      {triangle("-1 0 1 2"), "f: property \"vertex_indices\" is a list of -1 values; legal: 0 to 2147483647"},
+      {triangle("3e9 0 1 2"),
+       "f: property \"vertex_indices\" is a list of 3000000000 values; legal: 0 to 2147483647"},
       {triangle("1e9 0 1 2"), "f: mesh has 999999998 triangles or more; legal: at most 33554432"},
       {header("element vertex 3\n" + kXyz) + kBody,
        "f: mesh has 3 vertices and 0 triangles; legal: 1 triangle or more"},
   };
   for (const auto& [text, error] : cases) CHECK(error_of_ply(text) == error);
+}
+
+TEST_CASE("PLY strips with a vertex that is not there are refused") {
+  const auto strips = [](const std::string& type, const std::string& list) {
+    return error_of_ply(header("element vertex 3\n" + kXyz + "element tristrips 2\nproperty list int " +
+                               type + " vertex_indices\n") +
+                        kBody + "3 0 1 2\n" + list);
+  };
+  CHECK(strips("int", "3 0 1 3") == "f: list of strips 1 has vertex 3; legal: below 3");
+  CHECK(strips("int", "3 0 1 -2") == "f: list of strips 1 has vertex -2; legal: below 3");
+  CHECK(strips("int", "3 0 1 2.5") == "f: property \"vertex_indices\" has the value 2.5; legal: an integer");
+  CHECK(strips("uint", "3 0 1 255") == "f: list of strips 1 has vertex 255; legal: below 3");
+  CHECK(strips("uchar", "3 0 1 255") == "no error");
 }
 
 TEST_CASE("a PLY header that promises more than the file holds is refused before anything is allocated") {

@@ -49,7 +49,12 @@ def obj():
     return {"quad": v + "f 1 2 3 4\n", "negative": v + "vt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1\n",
             "materials": "mtllib a.mtl\no thing\n" + v + "usemtl red\nf 1 2 3\ng a b\nusemtl blue\nf 1 3 4\n",
             "concave": concave + "f 1 2 3 4\n", "skipped": v + "p 1\nl 1 2 3\nf 1 2 3\r\n# end\n",
-            "numbers": "v 1e-3 -.5 +2.\nv 1e38 1 1 1 0 0 0\nv 0 0 0\nf 1 2 3\n", "bad": "v a b c\nf 0 1 9\n"}
+            "numbers": "v 1e-3 -.5 +2.\nv 1e38 1 1 1 0 0 0\nv 0 0 0\nf 1 2 3\n", "bad": "v a b c\nf 0 1 9\n",
+            "mark": "\ufeff" + v + "f 1 2 3\n", "utf16": b"\xff\xfev\0 \0",
+            "comments": "# \\\n" + v + "f 1 2 3#4\nf 1/1/1 2 3 # \\\nusemtl a #b\nf 1 2 4\n",
+            "continued": "v 0 \\\n0 0\nv\\\r\n1 0 0\rv 0 1 0\nvn 1 \\ \n0 0\nf 1 2\\\n3 \\\nf 1 2 3\\",
+            "not_finite": v + "v nan -inf 1.#QNAN\nv 1e400 -1e-400 1.#INF00\nf 1 2 5\nf 1 2\nf\nfo 1 2 3\n",
+            "left_out": v + "curv 0 1 1 2\nsurf 0 1 0 1 1\nbzp 1\nnonsense\n\v\ff 1 2 3\ncall a.obj\n"}
 
 
 def ply():
@@ -62,8 +67,20 @@ def ply():
            "edges": head % ("ascii", "int", "short", "char", "property uchar red\nelement edge 1\nproperty int vertex1\n"
                             "property list uint8 float64 w\n" + faces % 1)
            + "0 0 0 1\n1 0 0 1\n1 1 0 1\n0 1 1 1\n0 2 5 6\n3 0 1 2\n"}
+    strips = "element tristrips 1\nproperty list int %s vertex_indices\nend_header\n"
+    vertices = head % ("ascii", "float", "float", "float", "")
+    out["strips"] = vertices + strips % "int" + text + "9 0 1 2 3 -1 0 1 2 -1\n"
+    out["strips_uchar"] = vertices + strips % "uchar" + text + "6 -1 0 255 1 2 3\nmore"
+    out["blanks"] = "\ufeffply \r" + out["ascii"][4:].replace("\n", " \t\r").replace("comment", "\tcomment")
+    out["crlf"] = out["ascii"].replace("\n", "\r\n").replace("format", "obj_info\r\n\r\nformat")
+    out["not_finite"] = vertices + faces % 3 + text.replace("1", "nan") + "3 0 1 2\n1 0\n4 0.0 +1 2e0 3\n"
+    out["faces_first"] = (out["ascii"].split("element")[0] + "element" + (faces % 1).split("element")[1].split("end_header")[0]
+                          + "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n3 2 1 0\n"
+                          + "0 0 0 1 0 0 0 1 0\n")
     for order, name in (("<", "binary_little_endian"), (">", "binary_big_endian")):
         body = b"".join(struct.pack(order + "3f", *p) for p in POINTS) + struct.pack(order + "B4iB3i", 4, 0, 1, 2, 3, 3, 0, 1, 2)
+        out["strips_" + name] = (head % (name, "uchar", "uchar", "uchar", "") + strips % "ushort").encode() + (
+            bytes([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]) + struct.pack(order + "i6H", 6, 0, 1, 2, 65535, 1, 2) + b"tail")
         out[name] = (head % (name, "float32", "float32", "float32", faces % 2)).encode() + body
     return out
 

@@ -20,6 +20,7 @@ void add_bench_command(CLI::App& app, ExitStatus& status) {
   add_bench_sampled(*bench);
   add_bench_rtl(*bench);
   add_bench_idle(*bench);
+  add_bench_read(*bench);
   add_bench_error(*bench, status);
 }
 

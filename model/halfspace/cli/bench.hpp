@@ -38,6 +38,7 @@ void add_bench_time(CLI::App& bench);
 void add_bench_sampled(CLI::App& bench);
 void add_bench_rtl(CLI::App& bench);
 void add_bench_idle(CLI::App& bench);
+void add_bench_read(CLI::App& bench);
 void add_bench_error(CLI::App& bench, ExitStatus& status);
 
 }  // namespace halfspace

@@ -1,5 +1,6 @@
 /// halfspace info: what a frame holds.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -78,6 +79,9 @@ void info(const InfoOptions& options) {
         t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
     fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height, name(t.depth_format),
                surface, t.color_count, t.presented ? " presented" : "");
+  }
+  if (!frame.left_out.empty()) {
+    fmt::print("left out: {}\n", fmt::join(frame.left_out, ", "));
   }
   for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
     fmt::print("camera {}: {}\n", i, printable(frame.cameras[i]));

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "halfspace/cli/known_words.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/input_name.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/validate.hpp"
 
@@ -201,14 +201,14 @@ Camera InputOptions::camera() const {
   return camera;
 }
 
-Frame InputOptions::frame() const { return load(paths.front(), camera()); }
+Frame InputOptions::frame() const { return load_input(paths.front(), camera()); }
 
 std::vector<Frame> InputOptions::frames() const {
   const Camera seen_by = camera();
   std::vector<Frame> frames;
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
-    frames.push_back(load(path, seen_by));
+    frames.push_back(load_input(path, seen_by));
   }
   return frames;
 }

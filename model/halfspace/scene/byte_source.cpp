@@ -38,6 +38,9 @@ std::vector<std::byte> read_raw_bytes(const std::filesystem::path& path, std::ui
   std::ifstream file(path, std::ios::binary);
   if (!file) fail_to_read(name, last_error());
   std::vector<std::byte> bytes;
+  if (const std::uintmax_t expected = std::filesystem::file_size(path, error); !error && expected <= limit) {
+    bytes.reserve(expected + kReadChunk);
+  }
   std::size_t size = 0;
   while (file) {
     bytes.resize(std::max(bytes.size(), size + kReadChunk));

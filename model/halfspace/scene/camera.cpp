@@ -37,12 +37,12 @@ std::string to_text(glm::dvec3 p) { return fmt::format("({}, {}, {})", p.x, p.y,
 
 void check_camera(const Camera& camera, std::string_view name) {
   if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera fov is {}; legal: above 0 and below 180 degrees", name, camera.fov_degrees));
   }
   const auto check_size = [&](std::string_view field, std::uint32_t value) {
     if (value < 1 || value > kMaxTargetSize) {
-      throw InputError(
+      throw OptionError(
           fmt::format("{}: camera {} is {}; legal: 1 to {} pixels", name, field, value, kMaxTargetSize));
     }
   };
@@ -50,7 +50,7 @@ void check_camera(const Camera& camera, std::string_view name) {
   check_size("height", camera.height);
   const auto check_point = [&](std::string_view field, const std::optional<glm::dvec3>& point) {
     if (point && !is_finite(*point)) {
-      throw InputError(
+      throw OptionError(
           fmt::format("{}: camera {} is {}; legal: finite numbers", name, field, to_text(*point)));
     }
   };
@@ -58,7 +58,7 @@ void check_camera(const Camera& camera, std::string_view name) {
   check_point("at", camera.at);
   check_point("up", camera.up);
   if (camera.up && !(glm::length(*camera.up) > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera up is {}; legal: a vector that is not 0", name, to_text(*camera.up)));
   }
 }
@@ -155,14 +155,14 @@ View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::stri
   }
   const double distance = glm::length(eye - at);
   if (!(distance > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera eye and at are both {}; legal: two different points", name, to_text(at)));
   }
   const glm::dvec3 backward = (eye - at) / distance;
   const glm::dvec3 up = up_for(camera, backward);
   if (std::abs(glm::dot(up, backward)) > kMostParallel) {
-    throw InputError(fmt::format("{}: camera up {} is along its line of sight; legal: across it", name,
-                                 to_text(*camera.up)));
+    throw OptionError(fmt::format("{}: camera up {} is along its line of sight; legal: across it", name,
+                                  to_text(*camera.up)));
   }
 
   double nearest = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::stri
     farthest = std::max(farthest, depth);
   }
   if (!(farthest > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera eye {} looking at {} has the whole mesh behind it; legal: some in front",
                     name, to_text(eye), to_text(at)));
   }

@@ -31,10 +31,11 @@ struct Camera {
 /// enclose the mesh, or are those of the file's camera; where its aspect ratio is not that of the picture,
 /// the picture shows more at two sides. Positions stay double until clip space: a mesh far from the origin
 /// gives the picture of the same mesh at the origin. Those that are not finite stay in (their triangles are
-/// dropped when drawn) but do not count for the bounding box. Throws InputError when the field of view or a
+/// dropped when drawn) but do not count for the bounding box. Throws OptionError when the field of view or a
 /// size is out of range, eye, at or up is not finite, eye and at are the same, up is 0 or along the line of
-/// sight, no position of the mesh is finite, the mesh is too far away or too large for floats, or the file
-/// does not have the camera or it makes no picture.
+/// sight, the whole mesh is behind the eye, or the file does not have the camera; InputError when no position
+/// of the mesh is finite, the mesh is too far away or too large for floats, or the file's camera makes no
+/// picture.
 [[nodiscard]] Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name);
 
 }  // namespace halfspace

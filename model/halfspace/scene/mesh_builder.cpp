@@ -5,12 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/triangulate.hpp"
 
 namespace halfspace {
 namespace {
+
+/// Memory for `more` more; at least doubled, so that many calls do not copy again and again.
+template <typename T>
+void reserve_more(std::vector<T>& list, std::uint64_t more) {
+  const std::uint64_t size = list.size() + more;
+  if (size > list.capacity()) list.reserve(std::max<std::uint64_t>(size, 2 * list.capacity()));
+}
 
 bool is_finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -29,7 +37,11 @@ void MeshBuilder::check_room(std::uint64_t more_vertices, std::uint64_t more_tri
 
 void MeshBuilder::reserve_vertices(std::uint64_t count) {
   check_room(count, 0);
-  mesh_.positions.reserve(mesh_.positions.size() + count);
+  reserve_more(mesh_.positions, count);
+}
+
+void MeshBuilder::reserve_triangles(std::uint64_t count) {
+  reserve_more(mesh_.indices, std::min(3 * count, 3 * kMaxMeshTriangles - mesh_.indices.size()));
 }
 
 void MeshBuilder::add_vertex(glm::dvec3 position) {
@@ -51,7 +63,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
   }
   check_room(0, corners.size() - 2);
   if (corners.size() == 3) {
-    mesh_.indices.insert(mesh_.indices.end(), corners.begin(), corners.end());
+    for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
     return;
   }
   if (!triangulate(corners, mesh_.positions, mesh_.indices)) {

@@ -20,6 +20,8 @@ class MeshBuilder {
   /// Throws InputError unless so many more are legal: for readers that know before they read.
   void check_room(std::uint64_t more_vertices, std::uint64_t more_triangles) const;
   void reserve_vertices(std::uint64_t count);
+  /// Memory for so many triangles, or fewer where so many are not legal.
+  void reserve_triangles(std::uint64_t count);
 
   /// A vertex that is not finite is counted, as is every face that has it; they are left out.
   void add_vertex(glm::dvec3 position);

@@ -1,17 +1,14 @@
-// Wavefront OBJ by tinyobjloader, behind a check of what it would pass over (docs/adr/0003-mesh-readers.md).
-#define TINYOBJLOADER_IMPLEMENTATION
-#define TINYOBJLOADER_USE_DOUBLE
+// Wavefront OBJ, read here (docs/adr/0003-mesh-readers.md says why), after Appendix B1 of the Advanced
+// Visualizer manual: "Object Files (.obj)".
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <istream>
-#include <limits>
-#include <streambuf>
+#include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,165 +17,259 @@
 #include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
 #include "halfspace/scene/quote.hpp"
+#include "halfspace/scene/text.hpp"
 
 namespace halfspace {
 namespace {
 
-constexpr std::string_view kBlank = " \t";
+enum class Statement {
+  kVertex,
+  kFace,
+  kMaterial,
+  kPassedOver,  // says nothing about where triangles are
+  kPointOrLine,
+  kCurve,
+  kSurface,
+  kOtherFile,  // could add vertices, which later faces would count from
+  kUnknown
+};
 
-/// Cuts the next word off the line; empty at its end.
-std::string_view next_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-  line.remove_prefix(word.size());
-  return word;
+struct Keyword {
+  std::string_view word;
+  Statement statement;
+};
+// The most frequent ones first. Behind "call": what older versions of the format had.
+constexpr std::array<Keyword, 45> kKeywords{{{"v", Statement::kVertex},
+                                             {"f", Statement::kFace},
+                                             {"vt", Statement::kPassedOver},
+                                             {"vn", Statement::kPassedOver},
+                                             {"usemtl", Statement::kMaterial},
+                                             {"g", Statement::kPassedOver},
+                                             {"s", Statement::kPassedOver},
+                                             {"o", Statement::kPassedOver},
+                                             {"mtllib", Statement::kPassedOver},
+                                             {"p", Statement::kPointOrLine},
+                                             {"l", Statement::kPointOrLine},
+                                             {"curv", Statement::kCurve},
+                                             {"curv2", Statement::kCurve},
+                                             {"surf", Statement::kSurface},
+                                             {"vp", Statement::kPassedOver},
+                                             {"cstype", Statement::kPassedOver},
+                                             {"deg", Statement::kPassedOver},
+                                             {"bmat", Statement::kPassedOver},
+                                             {"step", Statement::kPassedOver},
+                                             {"parm", Statement::kPassedOver},
+                                             {"trim", Statement::kPassedOver},
+                                             {"hole", Statement::kPassedOver},
+                                             {"scrv", Statement::kPassedOver},
+                                             {"sp", Statement::kPassedOver},
+                                             {"end", Statement::kPassedOver},
+                                             {"con", Statement::kPassedOver},
+                                             {"mg", Statement::kPassedOver},
+                                             {"bevel", Statement::kPassedOver},
+                                             {"c_interp", Statement::kPassedOver},
+                                             {"d_interp", Statement::kPassedOver},
+                                             {"lod", Statement::kPassedOver},
+                                             {"maplib", Statement::kPassedOver},
+                                             {"usemap", Statement::kPassedOver},
+                                             {"shadow_obj", Statement::kPassedOver},
+                                             {"trace_obj", Statement::kPassedOver},
+                                             {"ctech", Statement::kPassedOver},
+                                             {"stech", Statement::kPassedOver},
+                                             {"csh", Statement::kOtherFile},
+                                             {"call", Statement::kOtherFile},
+                                             {"fo", Statement::kFace},
+                                             {"cdc", Statement::kCurve},
+                                             {"bsp", Statement::kSurface},
+                                             {"bzp", Statement::kSurface},
+                                             {"cdp", Statement::kSurface},
+                                             {"res", Statement::kPassedOver}}};
+
+Statement statement_of(std::string_view word) {
+  const auto* const found = std::find_if(kKeywords.begin(), kKeywords.end(),
+                                         [&](const Keyword& keyword) { return keyword.word == word; });
+  return found == kKeywords.end() ? Statement::kUnknown : found->statement;
 }
 
-/// Reads all of `word` as a number.
-template <typename T>
-bool to_number(std::string_view word, T& value) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-/// Finds the statements tinyobjloader would read as something else: it takes a malformed number for 0, cuts
-/// an index to 32 bits, ends a line at a zero byte and does not know continued lines.
-class ObjCheck {
+class ObjParser {
  public:
-  ObjCheck(std::string_view name, MeshBuilder& builder) : name_(name), builder_(builder) {}
+  ObjParser(std::string_view text, std::string_view name)
+      : name_(name), begin_(text.data()), at_(begin_), end_(begin_ + text.size()), builder_(name) {}
 
-  void run(std::string_view text) {
-    while (!text.empty()) {
-      ++line_;
-      const std::size_t end = text.find_first_of("\r\n");
-      check_line(text.substr(0, end));
-      if (end == std::string_view::npos) break;
-      text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
+  Mesh run() {
+    if (const std::size_t zero = rest(begin_).find('\0'); zero != std::string_view::npos) {
+      const std::size_t before = rest(begin_).substr(0, zero).find_last_of("\r\n");
+      fail(begin_ + zero, "character {} is a zero byte; legal: text",
+           before == std::string_view::npos ? zero : zero - before - 1);
     }
+    while (at_ != end_) {
+      if (to_word()) parse_statement();
+      to_next_line();
+    }
+    builder_.end_part(material_);
+    leave_out("points and lines", Statement::kPointOrLine);
+    leave_out("free-form curves", Statement::kCurve);
+    leave_out("free-form surfaces", Statement::kSurface);
+    leave_out("unknown statements", Statement::kUnknown);
+    return std::move(builder_).finish();
   }
 
  private:
   template <typename... Args>
-  [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
+  [[noreturn]] void fail(const char* place, fmt::format_string<Args...> text, Args&&... args) const {
+    std::uint64_t line = 1;
+    for (const char* c = begin_; c != place; ++c) {
+      line += static_cast<std::uint64_t>(*c == '\n' || (*c == '\r' && (c + 1 == end_ || c[1] != '\n')));
+    }
     throw InputError(
-        fmt::format("{}: line {}: {}", name_, line_, fmt::format(text, std::forward<Args>(args)...)));
+        fmt::format("{}: line {}: {}", name_, line, fmt::format(text, std::forward<Args>(args)...)));
   }
 
-  void check_line(std::string_view line) {
-    if (const std::size_t at = line.find('\0'); at != std::string_view::npos) {
-      fail("character {} is a zero byte; legal: text", at);
+  [[nodiscard]] std::string_view rest(const char* from) const {
+    return {from, static_cast<std::size_t>(end_ - from)};
+  }
+
+  /// Behind the line end at `place`.
+  [[nodiscard]] const char* next_line(const char* place) const {
+    return place + (rest(place).starts_with("\r\n") ? 2 : 1);
+  }
+
+  /// The start of the next line if the \ at `place` is the last of its line but for blanks; nullptr
+  /// otherwise.
+  [[nodiscard]] const char* continued(const char* place) const {
+    const char* const after = skip_all(place + 1, end_, kBlank);
+    if (after == end_) return end_;
+    return is(*after, kLineEnd) ? next_line(after) : nullptr;
+  }
+
+  [[nodiscard]] bool is_word_end(const char* place) const {
+    return place == end_ || is(*place, kBlank | kLineEnd) || (*place == '\\' && continued(place) != nullptr);
+  }
+
+  /// As is_word_end(), where a comment may follow without a blank.
+  [[nodiscard]] bool is_number_end(const char* place) const { return is_word_end(place) || *place == '#'; }
+
+  /// Moves to the next word of the statement; false when there is none.
+  bool to_word() {
+    for (;;) {
+      at_ = skip_all(at_, end_, kBlank);
+      if (at_ == end_ || is(*at_, kLineEnd | kHash)) return false;
+      if (*at_ != '\\') return true;
+      const char* const next = continued(at_);
+      if (next == nullptr) return true;
+      at_ = next;
     }
-    const std::string_view keyword = next_word(line);
-    if (keyword.starts_with('#')) return;
-    if (line.ends_with('\\')) fail("ends in \\; legal: a statement on one line");
-    if (keyword == "v") check_vertex(line);
-    if (keyword == "f") check_face(line);
-    if (keyword == "p" || keyword == "l") builder_.leave_out("points and lines");
   }
 
-  void check_vertex(std::string_view line) {
-    builder_.check_room(static_cast<std::uint64_t>(++vertices_), 0);
+  std::string_view take_word() {
+    const char* const first = at_;
+    while (!is_word_end(at_)) at_ = find_any(at_ + 1, end_, kBlank | kLineEnd | kBackslash);
+    return {first, static_cast<std::size_t>(at_ - first)};
+  }
+
+  /// Moves behind the statement's last line. Comments are not continued: they may end in the path of a
+  /// folder.
+  void to_next_line() {
+    while (to_word()) take_word();
+    at_ = find_any(at_, end_, kLineEnd);
+    if (at_ != end_) at_ = next_line(at_);
+  }
+
+  void parse_statement() {
+    const char* const first = at_;
+    const std::string_view word = take_word();
+    const Statement statement = statement_of(word);
+    switch (statement) {
+      case Statement::kVertex:
+        return parse_vertex();
+      case Statement::kFace:
+        return parse_face();
+      case Statement::kMaterial:
+        return parse_material();
+      case Statement::kPassedOver:
+        return;
+      case Statement::kPointOrLine:
+      case Statement::kCurve:
+      case Statement::kSurface:
+      case Statement::kUnknown:
+        ++left_out_[static_cast<std::size_t>(statement)];
+        return;
+      case Statement::kOtherFile:
+        fail(first, "statement is {}; legal: a file that is whole without others", quote(word));
+    }
+  }
+
+  /// What follows the third number, a weight or a colour, is passed over.
+  void parse_vertex() {
+    glm::dvec3 position{0};
     for (int i = 0; i < 3; ++i) {
-      const std::string_view word = next_word(line);
-      double value = 0;
-      if (!to_number(word, value) || !std::isfinite(value)) {
-        fail("coordinate {} is {}; legal: three finite numbers", i, quote(word));
+      const std::size_t size = to_word() ? read_number(rest(at_), position[i]) : 0;
+      if (size == 0 || !is_number_end(at_ + size)) {
+        fail(at_, "coordinate {} is {}; legal: three numbers", i, quote(to_word() ? take_word() : ""));
       }
+      at_ += size;
     }
+    builder_.add_vertex(position);
   }
 
-  void check_face(std::string_view line) {
-    std::uint64_t corners = 0;
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-      const std::string_view digits = word.substr(0, word.find('/'));
-      std::int32_t index = 0;
-      // tinyobjloader takes what follows a third slash for a corner of its own.
-      if (!to_number(digits, index) || index == 0 || std::count(word.begin(), word.end(), '/') > 2) {
-        fail("corner {} is {}; legal: v, v/t, v//n or v/t/n with v from 1, or from -1 down", corners,
-             quote(word));
-      }
-      if (std::int64_t{index} > vertices_ || -std::int64_t{index} > vertices_) {
-        fail("corner {} is vertex {}; legal: 1 to {}, the vertices up to here", corners, index, vertices_);
-      }
-      ++corners;
+  void parse_face() {
+    corners_.clear();
+    const std::int64_t vertices = builder_.vertex_count();
+    while (to_word()) corners_.push_back(parse_corner(vertices));
+    builder_.add_face(corners_);
+  }
+
+  /// v, v/t, v//n or v/t/n, of which the first is a vertex; those below 0 count back from the last one.
+  std::uint32_t parse_corner(std::int64_t vertices) {
+    const char* const first = at_;
+    std::int32_t number = 0;
+    const auto [stop, error] = std::from_chars(*at_ == '+' ? at_ + 1 : at_, end_, number);
+    int slashes = 0;
+    for (at_ = stop; !is_number_end(at_) && (slashes > 0 || *at_ == '/'); ++at_) {
+      slashes += static_cast<int>(*at_ == '/');
     }
-    if (corners < 3) return;
-    triangles_ += corners - 2;
-    builder_.check_room(0, triangles_);
+    if (error != std::errc() || number == 0 || slashes > 2 || !is_number_end(at_)) {
+      at_ = first;
+      fail(first, "corner {} is {}; legal: v, v/t, v//n or v/t/n with v from 1, or from -1 down",
+           corners_.size(), quote(take_word()));
+    }
+    const std::int64_t vertex = number > 0 ? number - 1 : vertices + number;
+    if (vertex < 0 || vertex >= vertices) {
+      fail(first, "corner {} is vertex {}; legal: 1 to {}, the vertices up to here", corners_.size(), number,
+           vertices);
+    }
+    return static_cast<std::uint32_t>(vertex);
+  }
+
+  /// The faces from here on have the material; the name may have blanks.
+  void parse_material() {
+    std::string material;
+    while (to_word()) {
+      if (!material.empty()) material += ' ';
+      material += take_word();
+    }
+    if (material == material_) return;
+    builder_.end_part(std::exchange(material_, std::move(material)));
+  }
+
+  void leave_out(std::string_view what, Statement statement) {
+    builder_.leave_out(what, left_out_[static_cast<std::size_t>(statement)]);
   }
 
   std::string_view name_;
-  std::uint64_t line_ = 0;
-  std::int64_t vertices_ = 0;
-  std::uint64_t triangles_ = 0;
-  MeshBuilder& builder_;
+  const char* begin_;
+  const char* at_;
+  const char* end_;
+  MeshBuilder builder_;
+  std::string material_;
+  std::vector<std::uint32_t> corners_;  // of the face that is being read
+  std::array<std::uint64_t, static_cast<std::size_t>(Statement::kUnknown) + 1> left_out_{};
 };
-
-/// Text as a stream to read from, without a copy.
-class TextBuffer : public std::streambuf {
- public:
-  explicit TextBuffer(std::string_view text) {
-    char* const begin = const_cast<char*>(text.data());  // the interface's; nothing is written
-    setg(begin, begin, begin + text.size());
-  }
-};
-
-/// What the callbacks build.
-struct Builder {
-  std::string_view name;
-  MeshBuilder& mesh;
-  std::string material;
-  std::vector<std::uint32_t> polygon;
-};
-
-void add_vertex(void* user, double x, double y, double z, double /*w*/) {
-  static_cast<Builder*>(user)->mesh.add_vertex({x, y, z});
-}
-
-void add_face(void* user, tinyobj::index_t* corners, int count) {
-  auto& builder = *static_cast<Builder*>(user);
-  const auto vertices = std::int64_t{builder.mesh.vertex_count()};
-  builder.polygon.clear();
-  for (int i = 0; i < count; ++i) {
-    const std::int64_t number = corners[i].vertex_index;
-    const std::int64_t vertex = number > 0 ? number - 1 : vertices + number;
-    if (vertex < 0 || vertex >= vertices) {
-      throw InputError(
-          fmt::format("{}: a face has vertex {}; legal: 1 to {}", builder.name, number, vertices));
-    }
-    builder.polygon.push_back(static_cast<std::uint32_t>(vertex));
-  }
-  builder.mesh.add_face(builder.polygon);
-}
-
-void use_material(void* user, const char* material, int /*id*/) {
-  auto& builder = *static_cast<Builder*>(user);
-  if (builder.material == material) return;
-  builder.mesh.end_part(builder.material);
-  builder.material = material;
-}
 
 }  // namespace
 
 Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  MeshBuilder mesh(name);
-  ObjCheck(name, mesh).run(text);
-  Builder builder{.name = name, .mesh = mesh, .material = {}, .polygon = {}};
-
-  tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = add_vertex;
-  callbacks.index_cb = add_face;
-  callbacks.usemtl_cb = use_material;
-  TextBuffer buffer(text);
-  std::istream stream(&buffer);
-  std::string error;
-  if (!tinyobj::LoadObjWithCallback(stream, callbacks, &builder, nullptr, nullptr, &error)) {
-    throw InputError(fmt::format("{}: not read as OBJ; legal: a Wavefront OBJ file", name));
-  }
-  mesh.end_part(builder.material);
-  return std::move(mesh).finish();
+  return ObjParser(text_of(bytes, name), name).run();
 }
 
 }  // namespace halfspace

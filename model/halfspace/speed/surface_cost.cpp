@@ -1,5 +1,6 @@
 #include "halfspace/speed/surface_cost.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -107,6 +108,9 @@ RunCost cost_of_fresh_run(const std::function<void()>& run) {
   if (pipe(ends.data()) != 0) {
     throw std::runtime_error("no pipe to a process to measure in");
   }
+#ifdef __GLIBC__
+  malloc_trim(0);  // what earlier runs left is no memory for this one
+#endif
   std::fflush(nullptr);  // or the child would write it again
   const pid_t child = fork();
   if (child == 0) {

@@ -1,0 +1,92 @@
+// Is the memory that a reader takes within the multiple of the file's size that docs/guides/meshes.md states?
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "fixture.hpp"
+#include "halfspace/scene/mesh_formats.hpp"
+#include "halfspace/speed/surface_cost.hpp"
+
+using namespace halfspace;
+using namespace halfspace::test;
+
+#ifndef __SANITIZE_ADDRESS__  // whose own memory would be measured
+namespace {
+
+constexpr std::size_t kFileBytes = 8'000'000;
+constexpr double kMostMemory = 64;  // bytes a byte of the file
+
+/// `text` again and again behind `head`.
+std::string repeated(std::string head, const std::string& text) {
+  while (head.size() < kFileBytes) head += text;
+  return head;
+}
+
+std::string ply_head(const std::string& format, const std::string& elements) {
+  return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
+}
+
+const std::string kByteVertices = "element vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n";
+const std::string kThreeVertices = {"\0\0\0\1\0\0\0\1\0", 9};
+
+/// One list of kFileBytes corners of one byte each.
+std::string byte_list(const std::string& element, int period) {
+  std::string out = ply_head("binary_little_endian", kByteVertices + element) + kThreeVertices;
+  append(out, static_cast<std::uint32_t>(kFileBytes));
+  for (std::size_t i = 0; i < kFileBytes; ++i) out += static_cast<char>(static_cast<int>(i) % period);
+  return out;
+}
+
+double memory(const std::string& file, Mesh (*parse)(std::span<const std::byte>, std::string_view)) {
+  const RunCost cost = cost_of_fresh_run([&] { (void)parse(as_bytes(file), "f"); });
+  return cost.megabytes * 1e6 / static_cast<double>(file.size());
+}
+
+}  // namespace
+
+TEST_CASE("OBJ: memory is within its multiple of the file's size") {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  CHECK(memory(repeated(points + "f 1 2 3\n", "v 1 1 1\n"), parse_obj) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3\n"), parse_obj) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3 1\n"), parse_obj) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3\nusemtl\nf 1 2 3\nusemtl a\n"), parse_obj) < kMostMemory);
+  CHECK(memory(repeated(points + "f 1 2 3\nf", " 1"), parse_obj) < kMostMemory);
+  // A circle: a polygon that is convex, with its vertices.
+  std::string circle;
+  const int corners = 100000;
+  for (int i = 0; i < corners; ++i) {
+    circle += "v " + std::to_string(std::cos(i * 2e-5 * M_PI)) + ' ' +
+              std::to_string(std::sin(i * 2e-5 * M_PI)) + " 0\n";
+  }
+  for (int i = 0; i < 20; ++i) {
+    circle += "f";
+    for (int corner = -corners; corner < 0; ++corner) circle += ' ' + std::to_string(corner);
+    circle += '\n';
+  }
+  CHECK(memory(circle, parse_obj) < kMostMemory);
+}
+
+TEST_CASE("PLY: memory is within its multiple of the file's size") {
+  const std::string faces = "property list uint uchar vertex_indices\n";
+  CHECK(memory(byte_list("element tristrips 1\n" + faces, 3), parse_ply) < kMostMemory);
+  CHECK(memory(byte_list("element face 1\n" + faces, 1), parse_ply) < kMostMemory);
+  const std::string count = std::to_string(kFileBytes / 4 - 100);
+  CHECK(memory(repeated(ply_head("binary_big_endian", kByteVertices + "element face " + count +
+                                                          "\nproperty list uchar uchar vertex_index\n") +
+                            kThreeVertices,
+                        {"\3\0\1\2", 4}),
+               parse_ply) < kMostMemory);
+  CHECK(memory(repeated(ply_head("binary_big_endian", kByteVertices + "element tristrips " + count +
+                                                          "\nproperty list uchar uchar vertex_index\n") +
+                            kThreeVertices,
+                        {"\3\0\1\2", 4}),
+               parse_ply) < kMostMemory);
+  const std::string many = std::to_string(kFileBytes / 3 - 100);
+  CHECK(memory(repeated(ply_head("binary_little_endian",
+                                 "element vertex " + many +
+                                     "\nproperty char x\nproperty char y\nproperty char z\n"
+                                     "element face 1\nproperty list uchar uchar vertex_index\n"),
+                        {"\3\1\2", 3}),
+               parse_ply) < kMostMemory);
+}
+#endif
