@@ -9,7 +9,7 @@ ENDINGS = (".png", ".svg")
 def read_json(path, expected):
     """`expected`: name and version of the schema."""
     try:
-        data = json.loads(path.read_text())
+        data = json.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         sys.exit(f"{path}: {error.strerror}")
     except ValueError as error:

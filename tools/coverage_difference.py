@@ -59,7 +59,7 @@ def main():
     parser.add_argument("--crop", help="X,Y,W,H in pixels (default: all)")
     parser.add_argument("--scale", type=int, default=1, help="pixels of the picture for each pixel")
     options = parser.parse_args()
-    surface = json.loads((options.a / "stats.json").read_text())["surfaces"][options.surface]
+    surface = json.loads((options.a / "stats.json").read_text(encoding="utf-8-sig"))["surfaces"][options.surface]
     whole = (0, 0, surface["width"], surface["height"])
     left, top, width, height = map(int, options.crop.split(",")) if options.crop else whole
 

@@ -16,7 +16,7 @@ def read_speed(path):
 def read_history(path):
     """A dictionary for each line."""
     try:
-        with path.open(newline="") as file:
+        with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
             rows = list(reader)
     except OSError as error:

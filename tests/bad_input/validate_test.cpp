@@ -74,17 +74,35 @@ const FrameRule kFrameRules[] = {
     {[](Frame& f) { draw(f).viewport.y = -kInf; }, kDraw + "viewport.y is -inf; legal: a finite number"},
     {[](Frame& f) { draw(f).viewport.z = kInf; }, kDraw + "viewport.width is inf; legal: a finite number"},
     {[](Frame& f) { clear(f).viewport.w = kNan; }, kClear + "viewport.height is nan; legal: a finite number"},
-    {[](Frame& f) { draw(f).depth_range.x = -0.5f; }, kDraw + "depth_range.near is -0.5; legal: 0 to 1"},
-    {[](Frame& f) { draw(f).depth_range.y = 1.5f; }, kDraw + "depth_range.far is 1.5; legal: 0 to 1"},
-    {[](Frame& f) { draw(f).depth_range.y = kNan; }, kDraw + "depth_range.far is nan; legal: 0 to 1"},
+    {[](Frame& f) { draw(f).depth_range.x = -0.5f; },
+     kDraw + "depth_range.near is -0.5; legal on a unorm surface: 0 to 1"},
+    {[](Frame& f) { draw(f).depth_range.y = 1.5f; },
+     kDraw + "depth_range.far is 1.5; legal on a unorm surface: 0 to 1"},
+    {[](Frame& f) { draw(f).depth_range.y = kNan; },
+     kDraw + "depth_range.far is nan; legal on a unorm surface: 0 to 1"},
+    {[](Frame& f) {
+       target(f).depth_format = DepthFormat::kFloat32;
+       draw(f).depth_range.y = kInf;
+     },
+     kDraw + "depth_range.far is inf; legal: a finite number"},
     {[](Frame& f) { draw(f).clear_depth = kInf; }, kDraw + "clear_depth is inf; legal: a finite number"},
-    {[](Frame& f) { clear(f).clear_depth = 2; }, kClear + "clear_depth is 2; legal: 0 to 1"},
+    {[](Frame& f) { clear(f).clear_depth = kNan; }, kClear + "clear_depth is nan; legal: a finite number"},
     {[](Frame& f) { draw(f).offset_factor = kNan; }, kDraw + "offset_factor is nan; legal: a finite number"},
     {[](Frame& f) { draw(f).offset_units = kInf; }, kDraw + "offset_units is inf; legal: a finite number"},
     {[](Frame& f) { draw(f).offset_clamp = kNan; }, kDraw + "offset_clamp is nan; legal: a finite number"},
     {[](Frame& f) { draw(f).scissor.width = -1; }, kDraw + "scissor.width is -1; legal: 0 to 2147483647"},
     {[](Frame& f) { clear(f).scissor.height = -5; }, kClear + "scissor.height is -5; legal: 0 to 2147483647"},
     // Draws.
+    {[](Frame& f) {
+       f.targets[1].width = f.targets[1].height = 16384;
+       f.targets.push_back(f.targets[1]);
+       draw(f).target = 1;
+       f.commands.push_back(draw(f));
+       f.commands.back().target = 2;
+     },
+     "small: command 2 (draw): targets without depth that are drawn to up to here have 536870912 pixels; "
+     "legal: "
+     "at most 268435456 in all"},
     {[](Frame& f) { draw(f).depth_func = DepthFunc{8}; }, kDraw + "depth_func is 8; legal: 0 to 7"},
     {[](Frame& f) { draw(f).flags = 2; },
      kDraw + "flags are 0x2, depth_write without depth_test; legal: depth_write only with depth_test"},
@@ -129,6 +147,22 @@ TEST_CASE("what looks odd but is legal") {
     draw(frame).depth_range = {1, 0};
     draw(frame).viewport = {0, 0, -8, 0};
     draw(frame).scissor = {-100, 100, 0, 0};
+  }
+  SECTION("any number of large targets without depth that nothing is drawn to, and one that is") {
+    frame.targets[1].width = frame.targets[1].height = 16384;
+    frame.targets.resize(100, frame.targets[1]);
+    draw(frame).target = 1;
+    frame.commands.push_back(draw(frame));
+  }
+  SECTION("a clear of a unorm surface beyond 1, which is clamped") { clear(frame).clear_depth = 2; }
+  SECTION("depth of any size on a float32 surface") {
+    target(frame).depth_format = DepthFormat::kFloat32;
+    clear(frame).clear_depth = -1e30f;
+    draw(frame).depth_range = {-65536, 65536};
+  }
+  SECTION("a depth range of any size without depth") {
+    draw(frame).target = 1;
+    draw(frame).depth_range = {-65536, 65536};
   }
   SECTION("a clear that leaves depth alone may say anything about it") {
     clear(frame).flags = static_cast<std::uint32_t>(Flag::kClearColor);

@@ -22,7 +22,7 @@ TEST_CASE("run: writes every file of the contract, and stats.json lists them") {
   CHECK(entries(out) == expected);
   const Json stats = read_stats(out);
   CHECK(stats["files"].get<std::set<std::string>>() == expected);
-  CHECK(stats["schema_version"] == 4);
+  CHECK(stats["schema_version"] == 5);
   CHECK(stats["cycles"].is_null());
   CHECK(stats["seed"].is_null());
   CHECK(stats["stalls"].is_null());
@@ -163,6 +163,13 @@ TEST_CASE("diff: 0 for equal runs, 1 and the first difference for others") {
     const Outcome outcome = place.run(diff);
     CAPTURE(outcome.out);
     CHECK(outcome.status == 0);
+  }
+  SECTION("a byte order mark in stats.json is none of its text") {
+    const fs::path stats = place.path / "b" / "stats.json";
+    const std::string text = slurp(stats);
+    std::ofstream(stats, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    CHECK(place.run(diff).status == 0);
+    CHECK(place.run(run + "/b").status == 0);  // it is still the result of a run
   }
   SECTION("two runs with time are compared in time too") {
     REQUIRE(place.run(run + "/a --fidelity recurrence").status == 0);

@@ -76,6 +76,10 @@ TEST_CASE("exit status 2: the command line") {
            "run " + kCube + " --fidelity recurrence --timeline --timeline-draws 5:6 --out " +
                (place.path / "result").string(),
            "run " + (place.path / "cube.obj").string() + " --eye 1,2",
+           "run " + (place.path / "cube.obj").string() + " --fov 180",
+           "run " + (place.path / "cube.obj").string() + " --size 0x64",
+           "run " + (place.path / "cube.obj").string() + " --eye 1,2,3 --at 1,2,3",
+           "run " + (place.path / "cube.obj").string() + " --eye 0,0,9 --at 0,0,10",
            "stress --engine mine",
            "stress --engine wrong:nobody --cases 1",
            "stress --engine reference:nobody --cases 1",

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <thread>
 
 #include "program.hpp"
@@ -53,4 +54,15 @@ TEST_CASE("run: what a killed run leaves the next one removes, while a live one 
   CHECK(entries(results) == std::set<std::string>{"r", staging});
   CHECK(place.run(run).status == 0);
   CHECK(entries(results) == std::set<std::string>{"r"});
+}
+
+TEST_CASE("a file that a killed process left half-written is gone after the next one") {
+  const Place place;
+  const std::string in = place.path.string();
+  for (const std::string name : {"record", "jobs"}) {
+    std::ofstream(place.path / (name + ".part")) << "half";
+  }
+  REQUIRE(place.run("record " + scene("vkcube.ptf.xz") + " --out " + in + "/record").status == 0);
+  REQUIRE(place.run("run " + scene("vkcube.ptf.xz") + " --tile-jobs " + in + "/jobs").status == 0);
+  CHECK(entries(place.path) == std::set<std::string>{"err", "jobs", "out", "record"});
 }

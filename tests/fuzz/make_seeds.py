@@ -85,6 +85,13 @@ def ply():
     return out
 
 
+def glb_file(chunk, data):
+    chunk += b" " * (-len(chunk) % 4)
+    total = 12 + 8 + len(chunk) + 8 + len(data)
+    return (struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(chunk), b"JSON") + chunk
+            + struct.pack("<I4s", len(data), b"BIN\0") + data)
+
+
 def gltf():
     points = b"".join(struct.pack("<3f", *p) for p in POINTS)
     data = points + struct.pack("<6H", 0, 1, 2, 0, 2, 3) + bytes([0, 1, 2, 3])
@@ -110,17 +117,120 @@ def gltf():
     uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     text = json.dumps(scene(buffers=[{"byteLength": len(data), "uri": uri}])).encode()
     chunk = json.dumps(scene(images=[{"bufferView": 2, "mimeType": "image/png"}])).encode()
-    chunk += b" " * (-len(chunk) % 4)
-    total = 12 + 8 + len(chunk) + 8 + len(data)
-    glb = struct.pack("<4sII", b"glTF", 2, total) + struct.pack("<I4s", len(chunk), b"JSON") + chunk
-    glb += struct.pack("<I4s", len(data), b"BIN\0") + data
+    glb = glb_file(chunk, data)
     other = json.dumps(scene(images=[{"uri": "a.png"}], textures=[{"source": 0}], extensionsUsed=["X"],
                              cameras=[{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
                              skins=[{"joints": [0]}], animations=[{"channels": [], "samplers": []}],
                              extras={"a": [1, {"b": None}]}, extensions={"KHR_lights_punctual": {"lights": []}},
                              samplers=[{}], buffers=[{"byteLength": len(data), "uri": uri}])).encode()
     return {"text.gltf": text, "binary.glb": glb, "other.gltf": other, "outside.gltf": json.dumps(
-        scene(buffers=[{"byteLength": 4, "uri": "../a.bin"}])).encode()}
+        scene(buffers=[{"byteLength": 4, "uri": "../a.bin"}])).encode(), **gltf_features()}
+
+
+# The square of POINTS, packed by Draco's encoder (sequential, edgebreaker) and by meshoptimizer's (vertices, with the
+# exponential filter too, triangles, an index sequence).
+DRACO = {"sequential":
+             "445241434f02020100000002040100010200020301030009030000040204000104090400020201000001010003030130"
+             "011003003482880400000000ff03000000010100020301400100010000000000010000000000803f0000000000000000"
+             "000000000000803f0000000000000000000000000000803f0000000000000000000000000000803f0000000000000000"
+             "00000000000080bf000080bf00000000000000400a",
+         "edgebreaker":
+             "445241434f02020101000000040202020000011fff0111ff0111ff011103ff0000000000010000010009030000020104"
+             "0204000101010409040002000101010003030130011003002882980000000000ff030000000080bf000080bf00000000"
+             "000000400a01010100020301400100010000000000010000000000803f0000000000000000000000000000803f000000"
+             "0000000000000000000000803f0000000000000000000000000000803f000000000000000000000000"}
+MESHOPT = {"vertices":
+               "a00000000133000000ffff000000010c000000ff000000000000000000000000000000000000000000000000000080bf"
+               "000080bf00000000",
+           "exponential":
+               "a0000133000000807f01210000000000010c000000800108000000000000000000000000000000000000000000000000"
+               "0000000000e0fff300e0fff3000000f3",
+           "triangles": "e0f000007687566778a9866589689801690000", "indices": "d000040406080400000000"}
+
+
+def gltf_features():
+    """One file for each thing that places vertices, as a GLB of one square."""
+    data = b""
+    views = []
+
+    def view(content):
+        nonlocal data
+        data += b"\0" * (-len(data) % 8)
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
+        data += content
+        return len(views) - 1
+
+    accessors = []
+
+    def accessor(kind, component, count, **more):
+        accessors.append({"type": kind, "componentType": component, "count": count, **more})
+        return len(accessors) - 1
+
+    def floats(kind, *values):
+        size = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}[kind]
+        return accessor(kind, 5126, len(values) // size, bufferView=view(struct.pack("<%df" % len(values), *values)))
+
+    def packed_view(name, mode, count, stride, **more):
+        content = bytes.fromhex(MESHOPT[name])
+        at = view(content)
+        views[at] = {"buffer": 1, "byteLength": count * stride, "extensions": {"EXT_meshopt_compression": {
+            **views[at], "mode": mode, "count": count, "byteStride": stride, **more}}}
+        return at
+
+    corners = [c for p in POINTS for c in p]
+    position = floats("VEC3", *corners)
+    indices = accessor("SCALAR", 5121, 6, bufferView=view(bytes([0, 1, 2, 0, 2, 3])))
+    replaced = {"sparse": {"count": 1, "indices": {"bufferView": view(b"\2"), "componentType": 5121},
+                           "values": {"bufferView": view(struct.pack("<3f", 2, 2, 2))}}}
+    sparse = accessor("VEC3", 5126, 4, bufferView=0, **replaced)
+    bare = accessor("VEC3", 5126, 4, **replaced)
+    short = accessor("VEC3", 5122, 4, normalized=True, bufferView=view(struct.pack("<12h", *(int(c * 9999) for c in corners))))
+    joints = accessor("VEC4", 5121, 4, bufferView=view(bytes([0, 1, 0, 0] * 4)))
+    weights = floats("VEC4", *[0.5, 0.5, 0, 0] * 4)
+    matrices = floats("MAT4", *([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] * 2))
+    moves = floats("VEC3", 0, 0, 0, 3, 0, 0)
+    turns = floats("VEC4", 0, 0, 0, 1, 0, 0, 1, 0)
+    times = floats("SCALAR", 0, 1)
+    free = accessor("VEC3", 5126, 4), accessor("SCALAR", 5123, 6)
+    vertices = packed_view("vertices", "ATTRIBUTES", 4, 12)
+    filtered = packed_view("exponential", "ATTRIBUTES", 4, 12, filter="EXPONENTIAL")
+    packed = [(accessor("VEC3", 5126, 4, bufferView=v), accessor("SCALAR", component, 6, bufferView=i))
+              for v, i, component in ((vertices, packed_view("triangles", "TRIANGLES", 6, 4), 5125),
+                                      (filtered, packed_view("indices", "INDICES", 6, 2), 5123))]
+    draco = {name: view(bytes.fromhex(content)) for name, content in DRACO.items()}
+
+    def square(at=position, order=indices, **more):
+        return {"attributes": {"POSITION": at}, "indices": order, **more}
+
+    def glb(primitive, node=None, mesh=None, **more):
+        root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+                "nodes": [{"mesh": 0, **(node or {})}, {"translation": [1, 0, 0]}],
+                "meshes": [{"primitives": [primitive], **(mesh or {})}], "accessors": accessors, "bufferViews": views,
+                "buffers": [{"byteLength": len(data)}, {"byteLength": 4096}], **more}
+        return glb_file(json.dumps(root, separators=(",", ":")).encode(), data)
+
+    def animation(path, output, interpolation):
+        return {"channels": [{"sampler": 0, "target": {"node": 0, "path": path}}],
+                "samplers": [{"input": times, "output": output, "interpolation": interpolation}]}
+
+    skinned = square()
+    skinned["attributes"].update({"JOINTS_0": joints, "WEIGHTS_0": weights})
+    instanced = {"extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": moves, "ROTATION": turns}}}}
+    out = {"sparse": glb(square(sparse)), "bare": glb(square(bare)), "short": glb(square(short)),
+           "morph": glb(square(targets=[{"POSITION": bare}, {"POSITION": short}]), mesh={"weights": [0.5, 1]}),
+           "skin": glb(skinned, {"skin": 0}, skins=[{"joints": [0, 1], "inverseBindMatrices": matrices}]),
+           "instances": glb(square(), instanced),
+           "animation": glb(square(), animations=[animation("translation", moves, "LINEAR"),
+                                                  animation("rotation", turns, "CUBICSPLINE")]),
+           "camera": glb(square(), {"camera": 0}, cameras=[{"type": "orthographic", "orthographic": {
+               "xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}}]),
+           "hidden": glb(square(), {"extensions": {"KHR_node_visibility": {"visible": False}}})}
+    for name, at in draco.items():
+        extension = {"KHR_draco_mesh_compression": {"bufferView": at, "attributes": {"POSITION": 0}}}
+        out["draco_" + name] = glb(square(*free, extensions=extension))
+    for number, (at, order) in enumerate(packed):
+        out["meshopt_%d" % number] = glb(square(at, order))
+    return {name + ".glb": content for name, content in out.items()}
 
 
 def main():

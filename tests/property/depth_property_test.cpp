@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "halfspace/numerics/depth.hpp"
 #include "halfspace/reference/depth_code.hpp"
 #include "halfspace/reference/exact_depth.hpp"
 #include "random.hpp"
@@ -135,11 +136,13 @@ TEST_CASE("Storing rounds to the nearest code, clamps, and keeps the order", "[p
   Random random(seed());
   for (const Storage storage : {Storage::kUnorm16, Storage::kUnorm24, Storage::kFloat32}) {
     CHECK(encode_depth(-0.0, storage) == encode_depth(0.0, storage));
-    CHECK(encode_depth(-3, storage) == encode_depth(0, storage));
-    CHECK(encode_depth(7, storage) == encode_depth(1, storage));
-    CHECK(encode_depth(std::numeric_limits<double>::quiet_NaN(), storage) == encode_depth(0, storage));
-    CHECK(decode_depth(encode_depth(1, storage), storage) == 1.0f);
     const int bits = halfspace::reference::unorm_bits(storage);
+    if (bits != 0) {
+      CHECK(encode_depth(-3, storage) == encode_depth(0, storage));
+      CHECK(encode_depth(7, storage) == encode_depth(1, storage));
+      CHECK(encode_depth(std::numeric_limits<double>::quiet_NaN(), storage) == encode_depth(0, storage));
+    }
+    CHECK(decode_depth(encode_depth(1, storage), storage) == 1.0f);
     for (int round = 0; round < 2000; ++round) {
       const double low = std::ldexp(static_cast<double>(random.between(0, (std::int64_t{1} << 53) - 1)), -53);
       const double high =
@@ -155,5 +158,28 @@ TEST_CASE("Storing rounds to the nearest code, clamps, and keeps the order", "[p
         REQUIRE(decode_depth(encode_depth(low, storage), storage) == nearest_float(mpq_class(low)));
       }
     }
+  }
+}
+
+TEST_CASE("Codes of float32 depths of any size and sign are in the order of depth", "[property][depth]") {
+  using halfspace::reference::decode_depth;
+  using halfspace::reference::depth_test;
+  using halfspace::reference::encode_depth;
+  constexpr std::uint32_t kLess = 1;
+  const auto code = [](float z) { return encode_depth(z, Storage::kFloat32); };
+  Random random(seed());
+  const auto any_float = [&] {
+    const double mantissa = static_cast<double>(random.between(-(1 << 24) + 1, (1 << 24) - 1));
+    return static_cast<float>(std::ldexp(mantissa, static_cast<int>(random.between(-149, 104))));
+  };
+  for (int round = 0; round < 20000; ++round) {
+    const float a = any_float();
+    const float b = round % 4 == 0 ? std::nextafter(a, any_float()) : any_float();
+    CAPTURE(seed(), a, b);
+    REQUIRE(depth_test(kLess, code(a), code(b)) == (a < b));
+    REQUIRE(decode_depth(code(a), Storage::kFloat32) == a);
+    REQUIRE(halfspace::depth_passes(halfspace::DepthFunc::kLess, code(a), code(b)) == (a < b));
+    REQUIRE(halfspace::code_of_depth(halfspace::DepthFormat::kFloat32, a) == code(a));
+    REQUIRE(halfspace::depth_of_code(halfspace::DepthFormat::kFloat32, code(a)) == a);
   }
 }

@@ -80,6 +80,19 @@ TEST_CASE("fast core: what the units make of random frames on random machines", 
   });
 }
 
+TEST_CASE("fast core: what the units make of depths outside [0, 1]", "[property]") {
+  Random random(seed() + 7);
+  for (std::uint64_t run = 0; run < frames() / 5; ++run) {
+    CAPTURE(seed(), run);
+    Config config = random_config(random);
+    while (!fast::gap(config, {}, nullptr).empty()) {
+      config = random_config(random);
+    }
+    INFO(difference_from_default(config));
+    REQUIRE(core_difference(unrestricted_frame(random), config, random_watch(random), nullptr) == "");
+  }
+}
+
 TEST_CASE("fast core: time as the units have it, of random frames on random machines", "[property]") {
   compare_cores(frames() / 5, [](const Frame& frame, const Config& config, Random& random) {
     const StallPlan stalls = random.between(0, 1) == 0 ? StallPlan{} : random_stalls(random);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "../timing/random_machine.hpp"
@@ -68,6 +69,41 @@ inline Frame hard_frame(Random& random) {
     }
     if (random.between(0, 5) == 0) {
       draw.scissor = random_scissor(random, size);
+    }
+  }
+  return builder.frame;
+}
+
+/// Depth ranges and clears outside [0, 1] on a float32 surface, of any size and sign, among draws that keep
+/// to [0, 1].
+inline Frame unrestricted_frame(Random& random) {
+  const int size = pick(random, {16, 64, 100});
+  FrameBuilder builder(static_cast<std::uint32_t>(size), DepthFormat::kFloat32);
+  const auto end = [&] {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return pick(random, {0.0f, 1.0f, -1.0f, 0.25f, -65536.0f, 65536.0f, 1e-40f, -3e-39f, 1e30f, -1e30f,
+                         kLargest, -kLargest});
+  };
+  for (auto n = random.between(1, 4); n > 0; --n) {
+    if (random.between(0, 1) == 0) {
+      Command& clear = builder.clear(end());
+      if (random.between(0, 1) == 0) {
+        clear.scissor = random_scissor(random, size);
+      }
+    }
+    Command& draw = builder.draw(hard_triangles(random, size, static_cast<int>(random.between(1, 60))));
+    draw.depth_func =
+        random.between(0, 1) == 0 ? DepthFunc::kLess : static_cast<DepthFunc>(random.between(0, 7));
+    draw.flags |= random.between(0, 3) == 0 ? bits({Flag::kDepthClamp}) : 0;
+    draw.flags |= random.between(0, 3) == 0 ? bits({Flag::kNdcZMinusOneToOne}) : 0;
+    draw.flags |= random.between(0, 3) == 0 ? bits({Flag::kShaderDiscards}) : 0;
+    if (random.between(0, 3) == 0) {
+      draw.flags |= bits({Flag::kPolygonOffset});
+      draw.offset_units = static_cast<float>(random.between(-100, 100));
+      draw.offset_factor = static_cast<float>(random.between(-4, 4));
+    }
+    if (random.between(0, 3) != 0) {
+      draw.depth_range = {end(), end()};
     }
   }
   return builder.frame;

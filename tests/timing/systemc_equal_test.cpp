@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "../property/hard_frames.hpp"
 #include "differences.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/scene/ptf.hpp"
@@ -69,6 +70,16 @@ TEST_CASE("systemc runs a process for what it does, and hardly more", "[timing]"
     actions += early_z.z_misses + 3 * written;  // a write is seen, begins and ends
     CAPTURE(machine, activations, actions);
     CHECK(10 * activations <= 11 * actions);
+  }
+}
+
+TEST_CASE("systemc equals recurrence with depths outside [0, 1]", "[timing]") {
+  const std::uint64_t first = seed();
+  for (std::uint64_t n = 0; n < cases() / 3; ++n) {
+    Random random(first + n);
+    const Config config = random_config(random);
+    CAPTURE(first + n, difference_from_default(config));
+    REQUIRE(compare(unrestricted_frame(random), config, random_stalls(random)) == "");
   }
 }
 

@@ -160,6 +160,11 @@ TEST_CASE("config: a file is refused by its name too, and one that was written i
         std::string::npos);
   CHECK(error_of_file("[setup]\nfifo = 4\nfifo = 5\n").find("line 3") != std::string::npos);
   CHECK(error_of_file("").empty());
+  CHECK(error_of_file("\xEF\xBB\xBF[setup]\nfifo = 4\n").empty());  // a byte order mark
+  CHECK(read_config(path).setup.fifo == 4);
+  CHECK(parse_config("\xEF\xBB\xBF[setup]\nfifo = 4\n", "x").setup.fifo == 4);
+  const std::string utf_16("\xFF\xFE[\0s\0", 6);
+  CHECK(error_of_file(utf_16).starts_with("machine.toml: line 1: "));
 
   Config config;
   for (const char* setting : {"late_z=no_write", "late_z.discard=0.125", "tile_walker.tile_size=16",

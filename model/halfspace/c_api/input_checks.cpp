@@ -24,7 +24,7 @@ void check_order(const char* first_name, int first, const char* last_name, int l
 /// The float32 whose word it is.
 std::int64_t float_of_signed_word(std::int64_t word, int exponent) {
   const Int128 magnitude = word < 0 ? -Int128{word} : Int128{word};
-  return float_of_word(magnitude, exponent) | (word < 0 ? 1u << 31 : 0);
+  return code_of_word(magnitude, exponent) | (word < 0 ? 1u << 31 : 0);
 }
 
 /// E of an edge, `e` at pixel (0, 0), fits its width at all samples of x and y, which are first and last

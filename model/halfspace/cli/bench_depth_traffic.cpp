@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/whatif/depth_traffic.hpp"
 
 namespace halfspace {
@@ -44,7 +44,7 @@ void bench_depth_traffic(const DepthTrafficOptions& options) {
       "| frame | class | lines read | raw | stored | lines written | raw | stored | ratio |\n"
       "|---|---|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    const Frame frame = load(input);
+    const Frame frame = load_input(input);
     const whatif::DepthTraffic traffic = whatif::count_depth_traffic(frame, config);
     for (std::size_t i = 0; i < whatif::kLineClasses; ++i) {
       print_row(frame.name, whatif::kLineClassNames[i], traffic.read[i], traffic.written[i]);

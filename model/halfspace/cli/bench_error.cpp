@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/error_table.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/run/run.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/scene/synthetic.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
@@ -131,7 +131,7 @@ ExitStatus bench_error(const ErrorOptions& options) {
     folder.emplace(options.out);
   }
   for (const std::string& input : inputs) {
-    table.workloads.push_back(measure(load(input), table.config, options));
+    table.workloads.push_back(measure(load_input(input), table.config, options));
   }
   if (folder) {
     write_error_files(*folder, table);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/whatif/hi_z_study.hpp"
 
 namespace halfspace {
@@ -50,7 +50,7 @@ void bench_hi_z(const HiZOptions& options) {
       "kills\n\n");
   fmt::print("{}\n{}\n", head, rule);
   for (const std::string& input : options.inputs) {
-    const Frame frame = load(input);
+    const Frame frame = load_input(input);
     const whatif::HiZKills kills = whatif::count_hi_z_kills(frame, config, choices);
     for (std::size_t i = 0; i < options.bits.size(); ++i) {
       fmt::print("| {} | {} | {} | {} | {} | {} |", frame.name, kills.bursts, share(kills.dead, kills.bursts),

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/percent.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/timing/rtl/rest_skipper.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
 #include "halfspace/timing/systemc/run_systemc.hpp"
@@ -83,7 +83,7 @@ void bench_idle(IdleOptions options) {
       "rtl, every cycle, ms | skipping, ms | every / skipping |\n");
   fmt::print("|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    print_idle(load(input), machine, config, options);
+    print_idle(load_input(input), machine, config, options);
   }
 }
 

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
 #include "halfspace/timing/rtl/input_trace.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
@@ -58,7 +58,7 @@ void bench_rtl(const RtlBenchOptions& options) {
       "times faster than alone | than with checks |\n");
   fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    print_speed(load(input), config, options.rtl, options.repeat);
+    print_speed(load_input(input), config, options.rtl, options.repeat);
   }
 }
 

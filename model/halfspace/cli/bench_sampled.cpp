@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/speed/speed_table.hpp"
 #include "halfspace/timing/record/retime.hpp"
 
@@ -103,7 +103,7 @@ struct SampledErrors {
 
 void print_frame(const std::string& input, const SampledOptions& options, SampledErrors& all) {
   const Config base = options.machine.config();
-  const FrameRecord record = record_frame(load(input), base);
+  const FrameRecord record = record_frame(load_input(input), base);
   const ZTrace trace = trace_z_cache(record, z_cache_shape(base));
   const std::vector<Config> machines = random_machines(base, options.machines, options.seed);
   Retimer retimer(record, options.threads.count);

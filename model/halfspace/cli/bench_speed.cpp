@@ -11,6 +11,7 @@
 
 #include "halfspace/cli/bench.hpp"
 #include "halfspace/cli/known_words.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/core/functional.hpp"
@@ -47,7 +48,9 @@ struct SpeedOptions {
     return all;
   }
 
-  [[nodiscard]] Frame frame(const std::string& input) const {
+  /// `read` is load(), or load_input() to say what it leaves out.
+  [[nodiscard]] Frame frame(const std::string& input,
+                            Frame (*read)(const std::filesystem::path&, const Camera&)) const {
     const InputName name = input_name(input);
     if (name.kind != InputKind::kSynthetic) {
       if (!depth.empty()) {
@@ -55,7 +58,7 @@ struct SpeedOptions {
             "{}: has its own depth format, and --depth is '{}'; legal with --depth: synthetic frames", input,
             depth));
       }
-      return load(input);
+      return read(input, {});
     }
     return synthetic_frame(name.stem, depth == "float32" ? DepthFormat::kFloat32 : DepthFormat::kUnorm24);
   }
@@ -119,7 +122,7 @@ class SpeedBench {
       table.contenders.push_back(runner.contender);
     }
     for (const std::string& input : options_.all_inputs()) {
-      frame_ = options_.frame(input);
+      frame_ = options_.frame(input, load);
       const Watch watch{.core = options_.core.core(), .threads = options_.threads.count};
       counts_pixels_.emplace(config_, watch);
       Watch counts_none = watch;
@@ -211,7 +214,7 @@ void write_text(const std::string& path, const std::string& text) {
 void bench_speed(const SpeedOptions& options) {
   // What cannot be read or written is known before minutes have passed.
   for (const std::string& input : options.all_inputs()) {
-    (void)options.frame(input);
+    (void)options.frame(input, load_input);
   }
   for (const std::string& path : {options.json, options.csv}) {
     write_text(path, "");

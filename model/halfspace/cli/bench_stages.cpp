@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/speed/speed_table.hpp"
 #include "halfspace/speed/stage_cost.hpp"
 
@@ -45,7 +45,7 @@ void bench_stages(const StagesOptions& options) {
       options.repeat);
   fmt::print("| workload | stage | ms | share | works on | ns each |\n|---|---|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    print_stages(load(input), config, options.repeat);
+    print_stages(load_input(input), config, options.repeat);
   }
 }
 

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/speed/speed_table.hpp"
 #include "halfspace/timing/record/retime.hpp"
 #include "halfspace/timing/recurrence/run_recurrence.hpp"
@@ -103,7 +103,7 @@ void bench_time(const TimeOptions& options) {
       "retime 64 | retime 64 / sampled 64 |\n");
   fmt::print("|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   for (const std::string& input : options.inputs) {
-    print_times(load(input), config, options);
+    print_times(load_input(input), config, options);
   }
 }
 

@@ -1,10 +1,12 @@
 /// halfspace info: what a frame holds.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/options.hpp"
+#include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/synthetic.hpp"
 
 namespace halfspace {
@@ -77,6 +79,12 @@ void info(const InfoOptions& options) {
         t.depth_surface == kNoSurface ? "" : fmt::format(" surface {}", t.depth_surface);
     fmt::print("target {}: {}x{} depth {}{} colors {}{}\n", i, t.width, t.height, name(t.depth_format),
                surface, t.color_count, t.presented ? " presented" : "");
+  }
+  if (!frame.left_out.empty()) {
+    fmt::print("left out: {}\n", fmt::join(frame.left_out, ", "));
+  }
+  for (std::size_t i = 0; i < frame.cameras.size(); ++i) {
+    fmt::print("camera {}: {}\n", i, printable(frame.cameras[i]));
   }
   for (std::size_t i = 0; options.commands && i < frame.commands.size(); ++i) {
     print_command(i, frame.commands[i]);

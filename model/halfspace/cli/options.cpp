@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "halfspace/cli/known_words.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/input_name.hpp"
-#include "halfspace/scene/load.hpp"
 #include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/validate.hpp"
 
@@ -144,8 +144,16 @@ CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& mo
           ->type_name("X,Y,Z"),
       command.add_option("--fov", fov_degrees, "mesh: vertical field of view in degrees")
           ->capture_default_str(),
+      command
+          .add_option("--camera", mesh_camera,
+                      "mesh: a camera of the glTF file, by its name (the node's, else the camera's) or its "
+                      "number in 'halfspace info', from 0")
+          ->type_name("NAME|N"),
       command.add_option("--size", size, "mesh: picture size in pixels (default: 1920x1080)")
           ->type_name("WxH")};
+  for (const char* const other : {"--eye", "--at", "--up", "--fov"}) {
+    command.get_option("--camera")->excludes(command.get_option(other));
+  }
   return input;
 }
 
@@ -178,6 +186,9 @@ Camera InputOptions::camera() const {
   if (!up.empty()) {
     camera.up = parse_point("--up", up);
   }
+  if (!mesh_camera.empty()) {
+    camera.of_mesh = mesh_camera;
+  }
   if (!size.empty()) {
     const std::vector<std::uint32_t> v = parse_list<std::uint32_t>(size, 'x');
     if (v.size() != 2) {
@@ -190,14 +201,14 @@ Camera InputOptions::camera() const {
   return camera;
 }
 
-Frame InputOptions::frame() const { return load(paths.front(), camera()); }
+Frame InputOptions::frame() const { return load_input(paths.front(), camera()); }
 
 std::vector<Frame> InputOptions::frames() const {
   const Camera seen_by = camera();
   std::vector<Frame> frames;
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
-    frames.push_back(load(path, seen_by));
+    frames.push_back(load_input(path, seen_by));
   }
   return frames;
 }

@@ -54,6 +54,7 @@ struct InputOptions {
   std::string eye;
   std::string at;
   std::string up;
+  std::string mesh_camera;
   std::string size;
   double fov_degrees = 60;
 

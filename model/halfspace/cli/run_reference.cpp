@@ -6,11 +6,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/progress.hpp"
+#include "halfspace/cli/run_table.hpp"
 #include "halfspace/cli/tie_rule.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -73,6 +75,7 @@ class ResultBuilder final : public reference::Observer {
       : frame_(frame), config_(config), recorder_(record), bar_(frame.name) {
     const Watch watch{.keep_visible = pictures, .count_pixels = true, .keep_sums = pictures};
     result.frame.surfaces = make_surfaces(frame, config, watch);
+    surfaces_of_targets_ = surfaces_of_targets(frame, result.frame.surfaces);
     depth_written_.assign(result.frame.surfaces.size(), false);
     for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {
       const Command& command = frame.commands[i];
@@ -91,13 +94,13 @@ class ResultBuilder final : public reference::Observer {
     if (recorder_.wants_quads()) {
       record(draw, triangle, {quads.begin(), quads.end()});
     }
-    const DrawStats& of_draw = result.frame.draws[draw];
-    if (of_draw.surface == kNoSurface || result.frame.surfaces[of_draw.surface].sums.empty()) {
+    const Command& command = frame_.commands[result.frame.draws[draw].command];
+    const std::uint32_t number = surfaces_of_targets_[command.target];
+    Surface& surface = result.frame.surfaces[number];
+    if (surface.sums.empty()) {
       return;
     }
-    Surface& surface = result.frame.surfaces[of_draw.surface];
-    const bool writes = frame_.commands[of_draw.command].has(Flag::kDepthWrite);
-    const bool shows = writes || !depth_written_[of_draw.surface];
+    const bool shows = command.has(Flag::kDepthWrite) || !depth_written_[number];
     for (const reference::Quad& quad : quads) {
       QuadLanes& lanes = surface.sums.quads.at(static_cast<int>(quad.x / 2), static_cast<int>(quad.y / 2));
       ++lanes.quads;
@@ -115,11 +118,11 @@ class ResultBuilder final : public reference::Observer {
     DrawStats& of_draw = result.frame.draws[draw];
     of_draw.counters = counters_of(counters);
     result.frame.counters += of_draw.counters;
-    if (of_draw.surface != kNoSurface) {
-      result.frame.surfaces[of_draw.surface].counters += of_draw.counters;
-      if (frame_.commands[of_draw.command].has(Flag::kDepthWrite)) {
-        depth_written_[of_draw.surface] = true;
-      }
+    const Command& command = frame_.commands[of_draw.command];
+    const std::uint32_t number = surfaces_of_targets_[command.target];
+    result.frame.surfaces[number].counters += of_draw.counters;
+    if (command.has(Flag::kDepthWrite) && of_draw.surface != kNoSurface) {
+      depth_written_[number] = true;
     }
     result.reference->degenerate += counters.degenerate;
     result.reference->culled += counters.culled;
@@ -132,10 +135,12 @@ class ResultBuilder final : public reference::Observer {
     recorder_.finish();
     for (const reference::Surface& from : drawn) {
       Surface& to = result.frame.surfaces[from.index];
-      for (std::size_t i = 0; i < from.codes.size(); ++i) {
+      for (std::size_t i = 0; i < from.fragments.size(); ++i) {
         const auto x = static_cast<int>(i % from.width);
         const auto y = static_cast<int>(i / from.width);
-        to.codes.at(x, y) = from.codes[i];
+        if (!from.codes.empty()) {
+          to.codes.at(x, y) = from.codes[i];
+        }
         to.fragments.at(x, y) = from.fragments[i];
         to.survivors.at(x, y) = from.survivors[i];
       }
@@ -172,10 +177,11 @@ class ResultBuilder final : public reference::Observer {
   ProgressBar bar_;
   std::vector<std::uint32_t> first_triangle_;  ///< of each draw, counted through all draws
   std::uint32_t triangles_ = 0;
+  std::vector<std::uint32_t> surfaces_of_targets_;
   std::vector<bool> depth_written_;  ///< by surface: a draw so far may have
 };
 
-void write_colors(OutputFolder& folder, const reference::Surface& surface) {
+void write_colors(const std::filesystem::path& path, const reference::Surface& surface) {
   Picture picture(static_cast<int>(surface.width), static_cast<int>(surface.height));
   for (std::size_t i = 0; i < surface.colors.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -184,14 +190,14 @@ void write_colors(OutputFolder& folder, const reference::Surface& surface) {
       picture.pixels[i][k] = static_cast<std::uint8_t>(std::lround(255 * value));
     }
   }
-  write_png(folder.file(fmt::format("colors{}.png", surface.index)), picture);
+  write_png(path, picture);
 }
 
 void print_table(const Frame& frame, const RunResult& result) {
   const Counters& c = result.frame.counters;
   const ReferenceRun& r = *result.reference;
-  fmt::print("{}: {} draws on {} depth surfaces, by the reference {}\n", frame.name,
-             result.frame.draws.size(), result.frame.surfaces.size(), r.name);
+  fmt::print("{}: {} draws on {}, by the reference {}\n", frame.name, result.frame.draws.size(),
+             surfaces_text(result.frame), r.name);
   fmt::print("  {:<16}{:>12}  drawn of {}; {} clipped away, {} without area, {} face away, {} not finite\n",
              "triangles", r.drawn, c.front_end.triangles, c.front_end.clipped_away, r.degenerate, r.culled,
              c.front_end.non_finite);
@@ -228,7 +234,8 @@ void run_reference(const ReferenceRequest& request, Frame frame, const Config& c
   if (folder) {
     for (const reference::Surface& surface : drawn) {
       if (pictures && !surface.colors.empty()) {
-        write_colors(*folder, surface);
+        const std::string label = surface_label(builder.result.frame, surface.index);
+        write_colors(folder->file(fmt::format("colors{}.png", label)), surface);
       }
     }
     write_result_files(*folder, frame, config, Fidelity::kFunctional, {}, builder.result, std::nullopt);

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "halfspace/machine/surfaces.hpp"
 #include "halfspace/report/stats.hpp"
 
 namespace halfspace {
@@ -45,7 +46,7 @@ void print_cycles(const FrameResult& result, const FrameCycles& frame) {
 
 void print_table(const Frame& frame, const FrameResult& result) {
   const Counters& c = result.counters;
-  fmt::print("{}: {} draws on {} depth surfaces\n", frame.name, result.draws.size(), result.surfaces.size());
+  fmt::print("{}: {} draws on {}\n", frame.name, result.draws.size(), surfaces_text(result));
   row("front end", c.front_end.triangles,
       fmt::format("triangles; {} clipped away, {} cut, {} not finite", c.front_end.clipped_away,
                   c.front_end.clipped, c.front_end.non_finite + c.front_end.degenerate));
@@ -100,6 +101,13 @@ bool print_report(const rtl::PacketReport& report) {
 }
 
 }  // namespace
+
+std::string surfaces_text(const FrameResult& result) {
+  const std::size_t depth = depth_surfaces(result.surfaces).size();
+  const std::size_t bare = result.surfaces.size() - depth;
+  const std::string targets = fmt::format(" and {} target{} without depth", bare, bare == 1 ? "" : "s");
+  return fmt::format("{} depth surfaces{}", depth, bare == 0 ? "" : targets);
+}
 
 bool print_result(const Frame& frame, const RunResult& result) {
   print_table(frame, result.frame);

@@ -1,11 +1,17 @@
 /// What a run prints for people.
 #pragma once
 
+#include <string>
+
+#include "halfspace/machine/frame_result.hpp"
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace {
+
+/// On what a frame draws, in words: "2 depth surfaces and 1 target without depth".
+std::string surfaces_text(const FrameResult& result);
 
 /// Prints the table of a run. Returns whether RTL and model agree, where there is RTL.
 bool print_result(const Frame& frame, const RunResult& result);

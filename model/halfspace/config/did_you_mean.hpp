@@ -22,6 +22,7 @@ namespace halfspace {
 template <class Table, class Name = std::identity>
 [[nodiscard]] std::string did_you_mean(std::string_view word, const Table& table, Name name = {}) {
   std::vector<std::string_view> names;
+  names.reserve(std::size(table));
   for (const auto& each : table) {
     names.emplace_back(std::invoke(name, each));
   }

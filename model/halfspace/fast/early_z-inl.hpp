@@ -354,9 +354,9 @@ class EarlyZ {
                                  : state_.write              ? by_vectors<true>(t, x, y, mask, stored)
                                                              : by_vectors<false>(t, x, y, mask, stored);
     if (passed != 0 && state_.write) {
-      const auto [least, most] = std::minmax_element(stored, stored + kSamples);
-      tiles_->z_min[at] = static_cast<std::int32_t>(*least);
-      tiles_->z_max[at] = static_cast<std::int32_t>(*most);
+      const auto [least, most] = std::minmax_element(stored, stored + kSamples, is_nearer);
+      tiles_->z_min[at] = code_order(*least);
+      tiles_->z_max[at] = code_order(*most);
     }
     return passed;
   }

@@ -21,7 +21,7 @@ constexpr std::size_t kMostPlanes = 1 << 16;
 /// Whether front end and setup have vectors for the draw.
 bool takes_vectors(const DrawContext& draw, const Command& command) {
   const DepthFormat format = draw.setup.depth_format;
-  return !command.has(Flag::kPolygonOffset) &&
+  return !command.has(Flag::kPolygonOffset) && !command.is_unrestricted(format) &&
          (format == DepthFormat::kNone || draw.setup.interpolator == DepthInterpolator::kPlane);
 }
 
@@ -85,13 +85,15 @@ void FrameRun::run(const Frame& frame, Barrier& all, FrameResult& result) {
 void FrameRun::begin(DrawContext& draw) {
   draw_ = &draw;
   const bool has_depth = draw.surface != kNoSurface;
+  const bool counts_pixels = !draw.is_clear() && memory_.watch.count_pixels;
+  const bool keeps = has_depth || counts_pixels || draw.keeps_visible || draw.sums != nullptr;
   const bool by_blocks = memory_.by_blocks;
   task_ = {.draw = &draw,
            .columns = columns_,
            .walker = walker_,
-           .tiles = has_depth ? &memory_.tiles[draw.surface] : nullptr,
-           .surface = has_depth ? &memory_.surfaces[draw.surface] : nullptr,
-           .counts_pixels = has_depth && !draw.is_clear() && memory_.watch.count_pixels,
+           .tiles = keeps ? &memory_.tiles[draw.drawn_on] : nullptr,
+           .surface = keeps ? &memory_.surfaces[draw.drawn_on] : nullptr,
+           .counts_pixels = counts_pixels,
            .cache = has_depth && by_blocks ? &memory_.cache : nullptr,
            .cached = has_depth && by_blocks ? memory_.cache.surfaces[draw.surface] : BlockSurface{},
            .tile_cache = has_depth && !by_blocks ? &memory_.tile_cache : nullptr,
@@ -159,7 +161,7 @@ FrontEndTask FrameRun::front_end_task(const FrontEnd& front_end, const Command& 
   task.sub_pixels = 1 << walker_.sub_pixel_bits;
   task.clips_depth = front_end.clips_depth();
   task.symmetric = command.has(Flag::kNdcZMinusOneToOne);
-  task.has_depth = task_.tiles != nullptr && draw.early_z.test;
+  task.has_depth = draw.early_z.test;
   task.z_scale = depth.scale;
   task.z_bias = depth.bias;
   task.z_least = depth.least;
@@ -182,14 +184,13 @@ FrontEndTask FrameRun::front_end_task(const FrontEnd& front_end, const Command& 
 }
 
 void FrameRun::set_up(std::span<const ScreenTriangle> triangles) {
-  const bool has_depth = task_.tiles != nullptr && task_.draw->early_z.test;
   for (const ScreenTriangle& in : triangles) {
     SetupTriangle out;
     if (!passage::setup(in, *draw_, out)) {
       continue;
     }
     if (raster_takes(out, walker_)) {
-      set_up_->append(out, *task_.draw, walker_.sub_pixel_bits, has_depth);
+      set_up_->append(out, *task_.draw, walker_.sub_pixel_bits, task_.draw->early_z.test);
       if (set_up_->count == SetUpTriangles::kMost) {
         flush();
       }
@@ -259,7 +260,7 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, bool 
   std::size_t at = 0;
   std::uint32_t block = 0;
   if (task_.surface != nullptr) {
-    stored = task_.surface->codes.tile(job.tile_x, job.tile_y);
+    stored = passage::stored_codes(*task_.surface, draw, coverage);
     block = task_.tiles->block(static_cast<std::uint32_t>(job.tile_x >> task_.tiles->block_shift),
                                static_cast<std::uint32_t>(job.tile_y >> task_.tiles->block_shift));
     task_.tiles->open(block);
@@ -270,15 +271,15 @@ void FrameRun::draw_job(const SetupTriangle& triangle, const TileJob& job, bool 
   }
   TileCodes<TileSize> codes;
   const passage::Tested tested = passage::z_test<TileSize>(triangle, burst, draw, stored, codes);
-  if (task_.surface != nullptr) {
-    const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize);
-    task_.tiles->z_min[at] = static_cast<std::int32_t>(*least);
-    task_.tiles->z_max[at] = static_cast<std::int32_t>(*most);
+  if (stored != nullptr) {
+    const auto [least, most] = std::minmax_element(stored, stored + TileSize * TileSize, is_nearer);
+    task_.tiles->z_min[at] = code_order(*least);
+    task_.tiles->z_max[at] = code_order(*most);
     task_.tiles->change(block);
-    if (task_.counts_pixels || draw.keeps_visible || draw.sums != nullptr) {
-      passage::sink<TileSize>(coverage.mask, tested, job.tile_x, job.tile_y, triangle.triangle, draw,
-                              task_.surface);
-    }
+  }
+  if (task_.counts_pixels || draw.keeps_visible || draw.sums != nullptr) {
+    passage::sink<TileSize>(coverage.mask, tested, job.tile_x, job.tile_y, triangle.triangle, draw,
+                            *task_.surface);
   }
   if (touches_depth(draw.early_z)) {
     const int parts = memory_.config.z_cache.parts;

@@ -33,7 +33,8 @@ struct Columns {
   }
 };
 
-/// A draw, and what its triangles work on. `tiles` and `surface` are null where the target has no depth.
+/// A draw, and what its triangles work on. `tiles` and `surface` are null where the target has no
+/// depth, and nobody watches.
 struct RasterTask {
   DrawContext* draw = nullptr;
   Columns columns;  ///< that are drawn

@@ -21,11 +21,17 @@ bool sum_fits(std::int64_t low, std::int64_t high, std::int64_t offset, Int128 e
   return offset == 0 || (Int128{low} + offset >= slack - end && Int128{high} + offset <= end - slack);
 }
 
+/// Whether codes are within those of [0, 1], which vectors of float32 make.
+bool in_unit_range(const DepthEquation& eq) {
+  return code_order(eq.min_code) >= 0 &&
+         code_order(eq.max_code) <= code_order(largest_code(DepthFormat::kFloat32));
+}
+
 DepthKind kind_of(const DepthEquation& eq, const EarlyZState& state) {
   if (eq.min_code == eq.max_code) {
     return DepthKind::kFlat;
   }
-  if (state.interpolator != DepthInterpolator::kPlane || eq.beyond) {
+  if (state.interpolator != DepthInterpolator::kPlane || eq.beyond || !in_unit_range(eq)) {
     return DepthKind::kUnits;
   }
   if (state.format == DepthFormat::kFloat32) {

@@ -197,7 +197,7 @@ Ledger make_ledger(const Frame& frame, const Config& config, const FrameResult& 
                     has_depth ? places[draw.surface].line_bytes : 0);
     ledger.frame += line.accounts;
   }
-  for (std::size_t s = 0; s < counted.surfaces.size(); ++s) {
+  for (std::size_t s = 0; s < places.size(); ++s) {
     const EarlyZCounters& clears = counted.surfaces[s].drawn_clears.early_z;
     ledger.clears.lines.all += clears.z_hits + clears.z_misses;
     account_traffic(ledger.clears, clears, plain.surfaces[s].drawn_clears.early_z, places[s].line_bytes);

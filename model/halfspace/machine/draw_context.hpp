@@ -18,10 +18,11 @@ inline constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
 
 /// Every packet points to its own: each unit may be at another draw.
 struct DrawContext {
-  std::uint32_t draw = kNoDraw;  ///< counts the draws of the frame
-  std::uint32_t command = 0;     ///< index in Frame::commands
-  std::uint32_t surface = kNoSurface;
-  std::uint32_t first_triangle = 0;  ///< triangles of the draws before
+  std::uint32_t draw = kNoDraw;        ///< counts the draws of the frame
+  std::uint32_t command = 0;           ///< index in Frame::commands
+  std::uint32_t surface = kNoSurface;  ///< depth surface
+  std::uint32_t drawn_on = 0;          ///< in FrameResult::surfaces
+  std::uint32_t first_triangle = 0;    ///< triangles of the draws before
   SetupState setup;
   EarlyZState early_z;
   ShaderDiscard discard;

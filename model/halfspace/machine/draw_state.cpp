@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halfspace {
 namespace {
@@ -53,6 +54,10 @@ WalkerConfig walker_config(const Config& config) {
 }
 
 DepthLimits depth_limits(const Command& draw, DepthFormat format) {
+  if (format != DepthFormat::kNone && !draw.has(Flag::kDepthClamp) && draw.is_unrestricted(format)) {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    return {.least = code_of_depth(format, -kLargest), .most = code_of_depth(format, kLargest)};
+  }
   if (format == DepthFormat::kNone || !draw.has(Flag::kDepthClamp)) {
     return {.least = 0, .most = largest_code(format)};
   }
@@ -166,7 +171,7 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
           .setup = {.sub_pixel_bits = config.raster.sub_pixel_bits,
                     .bounds = rect,
                     .depth_format = format,
-                    .limits = {.least = 0, .most = largest_code(format)},
+                    .limits = {.least = code, .most = code},
                     .interpolator = config.depth.interpolator,
                     .hi_z = config.hi_z.enabled},
           .early_z = {.test = true,

@@ -21,7 +21,8 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 /// negative. Clipping to the sides of the clip volume would leave no sample outside of them.
 PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule);
 
-/// Depth clamp keeps fragments within the draw's depth range; without it they are kept within [0, 1].
+/// Depth clamp keeps fragments within the draw's depth range; without it they are kept within [0, 1], or
+/// where that range is unrestricted not at all.
 DepthLimits depth_limits(const Command& draw, DepthFormat format);
 
 WalkerConfig walker_config(const Config& config);

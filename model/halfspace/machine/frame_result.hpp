@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "halfspace/machine/core.hpp"
@@ -15,10 +16,12 @@ namespace halfspace {
 
 inline constexpr std::uint32_t kNothingVisible = 0xFFFFFFFFu;
 
-/// A depth surface and what happened to its pixels. Without a clear it starts at depth 1.
+/// A depth surface, or a target without depth, and what happened to its pixels. Without a clear depth starts
+/// at 1.
 struct Surface {
+  std::optional<std::uint32_t> target;  ///< without depth: the target that it is
   DepthFormat format = DepthFormat::kNone;
-  TiledImage<std::uint32_t> codes;      ///< stored depth codes
+  TiledImage<std::uint32_t> codes;      ///< stored depth codes; without depth only their size counts
   TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535; on request
   TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535; on request
   /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
@@ -31,16 +34,17 @@ struct Surface {
 
 /// One draw of the frame.
 struct DrawStats {
-  std::uint32_t command = 0;  ///< index in Frame::commands
-  std::uint32_t surface = kNoSurface;
+  std::uint32_t command = 0;           ///< index in Frame::commands
+  std::uint32_t surface = kNoSurface;  ///< depth surface
   Counters counters;
 };
 
 struct FrameResult {
-  Core core = Core::kReadable;    ///< that made it
-  std::vector<Surface> surfaces;  ///< by depth surface number
+  Core core = Core::kReadable;  ///< that made it
+  /// By depth surface number; behind them the targets without depth that something is drawn to.
+  std::vector<Surface> surfaces;
   std::vector<DrawStats> draws;
-  Counters counters;                ///< of the whole frame, targets without depth included
+  Counters counters;                ///< of the whole frame
   Counters drawn_clears;            ///< of all surfaces
   std::uint64_t clears = 0;         ///< clears of depth
   std::uint64_t flushed_lines = 0;  ///< of the z cache, written back at the end

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "halfspace/machine/surfaces.hpp"
+
 namespace halfspace {
 namespace {
 
@@ -20,15 +22,21 @@ FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserve
       surfaces_(surfaces),
       result_(result),
       draws_(draws) {
+  surfaces_of_targets_ = surfaces_of_targets(frame, surfaces);
   depth_written_.assign(surfaces.size(), false);
+  unrestricted_.assign(surfaces.size(), false);
   for (const Command& command : frame.commands) {
-    if (command.kind != CommandKind::kDraw) {
+    const bool is_draw = command.kind == CommandKind::kDraw;
+    draws_in_frame_ += is_draw ? 1 : 0;
+    const Target& target = frame.targets[command.target];
+    if (target.depth_surface == kNoSurface) {
       continue;
     }
-    ++draws_in_frame_;
-    const std::uint32_t surface = frame.targets[command.target].depth_surface;
-    if (command.has(Flag::kDepthWrite) && surface != kNoSurface) {
-      depth_written_[surface] = true;
+    if (is_draw && command.has(Flag::kDepthWrite)) {
+      depth_written_[target.depth_surface] = true;
+    }
+    if (command.is_unrestricted(target.depth_format)) {
+      unrestricted_[target.depth_surface] = true;
     }
   }
 }
@@ -82,20 +90,21 @@ void FrameSource::fill_batch() {
 
 void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   const Target& target = frame_.targets[command.target];
-  const std::uint32_t number = target.depth_surface;
-  const bool has_depth = number != kNoSurface;
-  const DepthFormat format = has_depth ? surfaces_[number].format : DepthFormat::kNone;
+  const std::uint32_t number = surfaces_of_targets_[command.target];
+  Surface& surface = surfaces_[number];
+  const DepthFormat format = surface.format;
   DrawContext& draw = draws_.emplace_back();
   draw.draw = draws_begun_++;
   draw.command = index;
-  draw.surface = number;
+  draw.surface = target.depth_surface;
+  draw.drawn_on = number;
   draw.first_triangle = first_triangle_;
   draw.setup = setup_state(command, target, format, config_);
   draw.early_z = early_z_state(command, format, config_);
+  draw.early_z.unrestricted = unrestricted_[number];
   draw.discard = shader_discard(config_);
-  draw.keeps_visible =
-      has_depth && !surfaces_[number].visible.empty() && (draw.early_z.write || !depth_written_[number]);
-  draw.sums = has_depth && !surfaces_[number].sums.empty() ? &surfaces_[number].sums : nullptr;
+  draw.keeps_visible = !surface.visible.empty() && (draw.early_z.write || !depth_written_[number]);
+  draw.sums = surface.sums.empty() ? nullptr : &surface.sums;
   if (observer_ != nullptr) {
     draw.observer = observer_;
     draw.record_quads = observer_->wants_quads();
@@ -134,8 +143,10 @@ void FrameSource::begin_clear(const Command& command) {
   const DrawnClear clear = drawn_clear(rect, code, surface.format, config_);
   DrawContext& draw = draws_.emplace_back();
   draw.surface = target.depth_surface;
+  draw.drawn_on = target.depth_surface;
   draw.setup = clear.setup;
   draw.early_z = clear.early_z;
+  draw.early_z.unrestricted = unrestricted_[target.depth_surface];
   draw.keeps_visible = !surface.visible.empty();
   draw_ = &draw;
   batch_.assign(clear.triangle.begin(), clear.triangle.end());
@@ -159,9 +170,7 @@ void collect_draws(const std::deque<DrawContext>& draws, FrameResult& result) {
     }
     result.draws.push_back({.command = draw.command, .surface = draw.surface, .counters = draw.counters});
     result.counters += draw.counters;
-    if (draw.surface != kNoSurface) {
-      result.surfaces[draw.surface].counters += draw.counters;
-    }
+    result.surfaces[draw.drawn_on].counters += draw.counters;
   }
 }
 

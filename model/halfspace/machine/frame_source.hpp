@@ -57,6 +57,8 @@ class FrameSource {
   std::vector<Surface>& surfaces_;
   FrameResult& result_;
   std::deque<DrawContext>& draws_;
+  std::vector<std::uint32_t> surfaces_of_targets_;
+  std::vector<bool> unrestricted_;   ///< by surface: EarlyZState::unrestricted of its draws
   std::vector<bool> depth_written_;  ///< by surface: some draw of the frame writes its depth
   std::size_t draws_in_frame_ = 0;
 

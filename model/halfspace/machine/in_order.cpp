@@ -111,7 +111,7 @@ class InOrderRun {
  private:
   void begin(DrawContext& draw) {
     draw_ = &draw;
-    surface_ = draw.surface == kNoSurface ? nullptr : &result_.surfaces[draw.surface];
+    surface_ = &result_.surfaces[draw.drawn_on];
     touches_depth_ = touches_depth(draw.early_z);
     if (stream_) {
       using Kind = StreamSegment::Kind;
@@ -184,11 +184,10 @@ class InOrderRun {
   /// Returns the burst's quads.
   int burst(const Burst& burst) {
     const Coverage& coverage = burst.packet.coverage;
-    std::uint32_t* const stored =
-        surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
+    std::uint32_t* const stored = passage::stored_codes(*surface_, *draw_, coverage);
     const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
     passage::sink<TileSize>(coverage.mask, tested, coverage.tile_x, coverage.tile_y, triangle_.triangle,
-                            *draw_, surface_);
+                            *draw_, *surface_);
     if (touches_depth_) {
       const int parts = config_.z_cache.parts;
       if (config_.hi_z.enabled) {
@@ -277,7 +276,7 @@ class InOrderRun {
 
   // Of the draw at work.
   DrawContext* draw_ = nullptr;
-  Surface* surface_ = nullptr;  ///< null where the target has no depth
+  Surface* surface_ = nullptr;
   bool touches_depth_ = false;
   SetupTriangle triangle_;
   HiZUpdate update_;  ///< of the job at work

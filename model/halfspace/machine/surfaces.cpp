@@ -1,8 +1,24 @@
 #include "halfspace/machine/surfaces.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace halfspace {
+
+namespace {
+
+/// The targets without depth that a draw draws to, in order.
+std::set<std::uint32_t> bare_targets(const Frame& frame) {
+  std::set<std::uint32_t> bare;
+  for (const Command& command : frame.commands) {
+    if (command.kind == CommandKind::kDraw && frame.targets[command.target].depth_surface == kNoSurface) {
+      bare.insert(command.target);
+    }
+  }
+  return bare;
+}
+
+}  // namespace
 
 ZCacheShape z_cache_shape(const Config& config) {
   return {.lines = config.z_cache.lines,
@@ -25,7 +41,30 @@ std::vector<SurfaceShape> surface_shapes(const Frame& frame) {
              .width = std::max(shape.width, static_cast<int>(target.width)),
              .height = std::max(shape.height, static_cast<int>(target.height))};
   }
+  for (const std::uint32_t bare : bare_targets(frame)) {
+    const Target& target = frame.targets[bare];
+    shapes.push_back(
+        {.target = bare, .width = static_cast<int>(target.width), .height = static_cast<int>(target.height)});
+  }
   return shapes;
+}
+
+std::vector<std::uint32_t> surfaces_of_targets(const Frame& frame, const std::vector<Surface>& surfaces) {
+  std::vector<std::uint32_t> numbers;
+  for (const Target& target : frame.targets) {
+    numbers.push_back(target.depth_surface);
+  }
+  for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
+    if (surfaces[i].target) {
+      numbers[*surfaces[i].target] = i;
+    }
+  }
+  return numbers;
+}
+
+std::span<const Surface> depth_surfaces(const std::vector<Surface>& surfaces) {
+  const auto bare = std::ranges::find_if(surfaces, [](const Surface& s) { return s.target.has_value(); });
+  return {surfaces.begin(), bare};
 }
 
 std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, const Watch& watch) {
@@ -36,6 +75,7 @@ std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, con
     if (shape.width == 0) {
       continue;  // a number that no target has
     }
+    surface.target = shape.target;
     surface.format = shape.format;
     surface.codes = {shape.width, shape.height, tile_size, largest_code(shape.format)};
     if (watch.count_pixels) {
@@ -54,7 +94,7 @@ std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, con
 
 std::vector<StreamSurface> stream_surfaces(const std::vector<Surface>& surfaces) {
   std::vector<StreamSurface> list;
-  for (const Surface& surface : surfaces) {
+  for (const Surface& surface : depth_surfaces(surfaces)) {
     const auto tiles_x = static_cast<std::uint32_t>(surface.codes.tiles_x());
     list.push_back({.tiles_x = tiles_x,
                     .tiles = tiles_x * static_cast<std::uint32_t>(surface.codes.tiles_y()),
@@ -104,7 +144,7 @@ std::vector<HiZSurface> place_blocks(const std::vector<Surface>& surfaces, const
   std::uint32_t first = 0;
   const int size = config.block_walker.block_size;
   const auto blocks = [size](int pixels) { return static_cast<std::uint32_t>((pixels + size - 1) / size); };
-  for (const Surface& surface : surfaces) {
+  for (const Surface& surface : depth_surfaces(surfaces)) {
     const std::uint32_t blocks_x = blocks(surface.codes.width());
     places.push_back(
         {.first_block = first, .blocks_x = blocks_x, .blocks = blocks_x * blocks(surface.codes.height())});

@@ -56,6 +56,22 @@ constexpr std::uint32_t largest_code(DepthFormat format) {
   return format == DepthFormat::kFloat32 ? std::bit_cast<std::uint32_t>(1.0f) : max_unorm_code(format);
 }
 
+/// Orders float32 by value: a number that is less for the bits of a smaller float, and the same for both
+/// zeros.
+constexpr std::int32_t float_order(std::uint32_t bits) {
+  const auto magnitude = static_cast<std::int32_t>(bits & 0x7FFFFFFFu);
+  return bits >> 31 != 0 ? -magnitude : magnitude;
+}
+
+/// The stored code of a float32, given its bits: a number that is not negative is stored as it is. Depths
+/// below 0 have codes that are negative as signed integers; docs/numerics.md says which surfaces hold them.
+constexpr std::uint32_t code_of_float(std::uint32_t bits) {
+  return static_cast<std::uint32_t>(float_order(bits));
+}
+constexpr std::uint32_t float_of_code(std::uint32_t code) {
+  return code >> 31 != 0 ? (0u - code) | 0x80000000u : code;
+}
+
 /// The depth of a vertex, or what polygon offset adds to it, as it enters setup: for unorm surfaces the code
 /// scaled by 2^vertex_depth_fraction, rounded to nearest even; for float32 the bits of the nearest float.
 inline std::int64_t vertex_depth_code(DepthFormat format, double depth) {
@@ -68,33 +84,41 @@ inline std::int64_t vertex_depth_code(DepthFormat format, double depth) {
 
 /// A vertex depth of a stored code.
 constexpr std::int64_t vertex_depth_of_code(DepthFormat format, std::uint32_t code) {
-  return format == DepthFormat::kFloat32 ? code : std::int64_t{code} << vertex_depth_fraction(format);
+  return format == DepthFormat::kFloat32 ? float_of_code(code)
+                                         : std::int64_t{code} << vertex_depth_fraction(format);
 }
 
-/// The stored code nearest to a vertex depth in [0, 1], halves upwards.
+/// The stored code nearest to a vertex depth, halves upwards. On unorm surfaces the depth is in [0, 1].
 constexpr std::uint32_t stored_code(DepthFormat format, std::int64_t vertex_depth) {
   if (format == DepthFormat::kFloat32) {
-    return static_cast<std::uint32_t>(vertex_depth);
+    return code_of_float(static_cast<std::uint32_t>(vertex_depth));
   }
   const int fraction = vertex_depth_fraction(format);
   return static_cast<std::uint32_t>((vertex_depth + (std::int64_t{1} << (fraction - 1))) >> fraction);
 }
 
-/// The stored code of a depth; values outside [0, 1] are clamped as the graphics APIs ask.
+/// The stored code of a depth. Unorm surfaces hold none outside [0, 1]: it is clamped, as by glClearDepth.
 inline std::uint32_t code_of_depth(DepthFormat format, float depth) {
-  return stored_code(format, vertex_depth_code(format, std::clamp(static_cast<double>(depth), 0.0, 1.0)));
+  const double value = depth;
+  const bool is_float = format == DepthFormat::kFloat32;
+  return stored_code(format, vertex_depth_code(format, is_float ? value : std::clamp(value, 0.0, 1.0)));
 }
 
-/// A stored code as a depth in [0, 1].
+/// A stored code as a depth.
 inline float depth_of_code(DepthFormat format, std::uint32_t code) {
   if (format == DepthFormat::kFloat32) {
-    return std::bit_cast<float>(code);
+    return std::bit_cast<float>(float_of_code(code));
   }
   return static_cast<float>(static_cast<double>(code) / max_unorm_code(format));
 }
 
-/// Codes of every format compare as unsigned integers, the bits of non-negative floats included.
-constexpr bool depth_passes(DepthFunc func, std::uint32_t incoming, std::uint32_t stored) {
+/// The order of depth in codes of every format.
+constexpr std::int32_t code_order(std::uint32_t code) { return static_cast<std::int32_t>(code); }
+constexpr bool is_nearer(std::uint32_t l, std::uint32_t r) { return code_order(l) < code_order(r); }
+
+constexpr bool depth_passes(DepthFunc func, std::uint32_t incoming_code, std::uint32_t stored_code) {
+  const std::int32_t incoming = code_order(incoming_code);
+  const std::int32_t stored = code_order(stored_code);
   switch (func) {
     case DepthFunc::kNever:
       return false;

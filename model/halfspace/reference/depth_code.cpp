@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "halfspace/numerics/error.hpp"
@@ -30,19 +31,27 @@ int unorm_bits(Storage storage) {
 }
 
 std::uint32_t encode_depth(double depth, Storage storage) {
-  // Written so that NaN fails both comparisons; "+ 0.0" because -0.0 would have the largest code of all
-  // floats.
-  const double clamped = depth > 0 ? std::min(depth, 1.0) + 0.0 : 0.0;
-  if (storage == Storage::kFloat32) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped));
+  if (storage == Storage::kFloat32) {
+    const auto nearest = static_cast<float>(depth);
+    const auto magnitude = std::bit_cast<std::uint32_t>(std::abs(nearest));
+    return nearest < 0 ? 1 + ~magnitude : magnitude;
+  }
+  // Written so that NaN fails both comparisons.
+  const double clamped = depth > 0 ? std::min(depth, 1.0) : 0.0;
   return static_cast<std::uint32_t>(std::nearbyint(clamped * largest_code(storage)));
 }
 
 float decode_depth(std::uint32_t code, Storage storage) {
-  if (storage == Storage::kFloat32) return std::bit_cast<float>(code);
+  if (storage == Storage::kFloat32) {
+    const bool negative = code > std::numeric_limits<std::int32_t>::max();
+    return negative ? -std::bit_cast<float>(1 + ~code) : std::bit_cast<float>(code);
+  }
   return static_cast<float>(code / largest_code(storage));
 }
 
-bool depth_test(std::uint32_t func, std::uint32_t incoming, std::uint32_t stored) {
+bool depth_test(std::uint32_t func, std::uint32_t incoming_code, std::uint32_t stored_code) {
+  const auto incoming = static_cast<std::int32_t>(incoming_code);
+  const auto stored = static_cast<std::int32_t>(stored_code);
   switch (func) {
     case 0:
       return false;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -228,17 +229,39 @@ void check(const Frame& frame, const Options& options) {
   }
 }
 
-Surface make_surface(const Target& target, bool has_colors) {
+Surface make_surface(const Target& target, std::uint32_t index, bool has_colors) {
   Surface s;
-  s.index = target.depth_surface;
+  s.index = index;
   s.width = target.width;
   s.height = target.height;
   const std::size_t pixels = static_cast<std::size_t>(s.width) * s.height;
-  s.codes.assign(pixels, encode_depth(1.0, static_cast<Storage>(target.depth_format)));
+  if (target.depth_surface != kNoSurface) {
+    s.codes.assign(pixels, encode_depth(1.0, static_cast<Storage>(target.depth_format)));
+  }
   s.fragments.assign(pixels, 0);
   s.survivors.assign(pixels, 0);
   if (has_colors) s.colors.assign(pixels, {});
   return s;
+}
+
+/// By target: the index of its surface. Targets that have none are not there.
+std::map<std::uint32_t, std::uint32_t> index_surfaces(const Frame& frame) {
+  std::map<std::uint32_t, std::uint32_t> index;
+  std::uint32_t end = 0;
+  for (std::uint32_t i = 0; i < frame.targets.size(); ++i) {
+    const std::uint32_t surface = frame.targets[i].depth_surface;
+    if (surface == kNoSurface) continue;
+    index.emplace(i, surface);
+    end = std::max(end, surface + 1);
+  }
+  std::set<std::uint32_t> without_depth;
+  for (const Command& command : frame.commands) {
+    if (command.kind == CommandKind::kDraw && !index.contains(command.target)) {
+      without_depth.insert(command.target);
+    }
+  }
+  for (const std::uint32_t target : without_depth) index.emplace(target, end++);
+  return index;
 }
 
 }  // namespace
@@ -263,24 +286,22 @@ std::vector<Surface> rasterize(const Frame& frame, const Options& options, const
   check(frame, options);
   const bool has_colors = method.has_colors;
   Observer nobody;
+  const std::map<std::uint32_t, std::uint32_t> index_of = index_surfaces(frame);
   std::map<std::uint32_t, Surface> surfaces;
   std::map<std::uint32_t, Storage> storage;
-  for (const Target& target : frame.targets) {
-    if (target.depth_surface == kNoSurface) continue;
-    surfaces.try_emplace(target.depth_surface, make_surface(target, has_colors));
-    storage.try_emplace(target.depth_surface, static_cast<Storage>(target.depth_format));
+  for (const auto& [number, index] : index_of) {
+    const Target& target = frame.targets[number];
+    surfaces.try_emplace(index, make_surface(target, index, has_colors));
+    storage.try_emplace(index, static_cast<Storage>(target.depth_format));
   }
   std::uint32_t draws = 0;
   for (const Command& command : frame.commands) {
-    const Target& target = frame.targets[command.target];
-    const bool has_depth = target.depth_surface != kNoSurface;
-    if (command.kind == CommandKind::kClear && has_depth) {
-      clear(frame, command, surfaces.at(target.depth_surface));
+    if (command.kind == CommandKind::kDraw) {
+      draw(frame, command, draws++, options, method, surfaces.at(index_of.at(command.target)),
+           observer != nullptr ? *observer : nobody);
+    } else if (frame.targets[command.target].depth_surface != kNoSurface) {
+      clear(frame, command, surfaces.at(index_of.at(command.target)));
     }
-    if (command.kind != CommandKind::kDraw) continue;
-    Surface no_surface = has_depth ? Surface{} : make_surface(target, has_colors);
-    draw(frame, command, draws++, options, method, has_depth ? surfaces.at(target.depth_surface) : no_surface,
-         observer != nullptr ? *observer : nobody);
   }
   std::vector<Surface> result;
   for (auto& [index, surface] : surfaces) {

@@ -35,14 +35,14 @@ struct Counters {
   Counters& operator+=(const Counters& other);
 };
 
-/// A depth surface after the frame. Arrays are row by row, row 0 on top. A surface that is never cleared
-/// starts at 1.
+/// A depth surface after the frame, or a target without one that a draw draws to. Arrays are row by row, row
+/// 0 on top. Depth that is never cleared starts at 1.
 struct Surface {
-  std::uint32_t index = 0;  ///< Target::depth_surface
+  std::uint32_t index = 0;  ///< Target::depth_surface; behind the largest, one by one, targets without one
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::uint32_t> codes;  ///< depth as stored, see depth_code.hpp
-  std::vector<float> depth;          ///< the same in [0,1]
+  std::vector<std::uint32_t> codes;  ///< depth as stored, see depth_code.hpp; empty where there is none
+  std::vector<float> depth;          ///< the same as numbers
   std::vector<std::uint16_t>
       fragments;  ///< fragments that covered the pixel; stays at 65535 when it gets there
   std::vector<std::uint16_t> survivors;  ///< of these, the ones that passed the depth test
@@ -68,8 +68,8 @@ class Observer {
   virtual void draw_done(std::uint32_t /*draw*/, const Counters& /*of_draw*/) {}
 };
 
-/// All depth surfaces of `frame` after its last command, by index. Draws without one leave no trace there,
-/// but `observer` sees them. Throws InputError where the frame contradicts itself.
+/// All surfaces of `frame` after its last command, by index. Throws InputError where the frame contradicts
+/// itself.
 [[nodiscard]] std::vector<Surface> rasterize(const Frame& frame, const Options& options,
                                              Observer* observer = nullptr);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halfspace::reference {
 
@@ -69,9 +70,12 @@ double polygon_offset(const DepthPlane& plane, double largest_depth, const Comma
 
 double offset_and_clamped(double depth, double offset, const Command& draw) {
   const double moved = depth + offset;
-  if (!draw.has(Flag::kDepthClamp)) return moved;
   const auto [low, high] = std::minmax({draw.depth_range.x, draw.depth_range.y});
-  return std::clamp(moved, static_cast<double>(low), static_cast<double>(high));
+  if (draw.has(Flag::kDepthClamp))
+    return std::clamp(moved, static_cast<double>(low), static_cast<double>(high));
+  if (low >= 0 && high <= 1) return std::clamp(moved, 0.0, 1.0);
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return std::clamp(moved, -kLargest, kLargest);
 }
 
 }  // namespace halfspace::reference

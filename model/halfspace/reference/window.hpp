@@ -55,7 +55,7 @@ struct DepthPlane {
                                     Storage storage);
 
 /// What depth state makes of the depth of a fragment: the polygon offset, and with depth clamp the depth
-/// range. encode_depth() clamps to [0,1] in any case.
+/// range. Without, [0,1], or all that a float32 holds where the depth range leaves [0,1].
 [[nodiscard]] double offset_and_clamped(double depth, double offset, const Command& draw);
 
 }  // namespace halfspace::reference

@@ -143,12 +143,12 @@ Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_
 }
 
 Picture depth_picture(const Surface& surface) {
-  std::vector<std::uint32_t> sorted;
+  std::vector<std::int32_t> sorted;
   const std::uint32_t far = largest_code(surface.format);
   for (int y = 0; y < surface.codes.height(); y += 2) {
     for (int x = 0; x < surface.codes.width(); x += 2) {
       if (surface.codes.at(x, y) != far) {
-        sorted.push_back(surface.codes.at(x, y));
+        sorted.push_back(code_order(surface.codes.at(x, y)));
       }
     }
   }
@@ -159,7 +159,7 @@ Picture depth_picture(const Surface& surface) {
       return kBackground;
     }
     const auto rank =
-        static_cast<float>(std::lower_bound(sorted.begin(), sorted.end(), code) - sorted.begin());
+        static_cast<float>(std::lower_bound(sorted.begin(), sorted.end(), code_order(code)) - sorted.begin());
     return to_rgb(glm::vec3(0.1f + 0.9f * (1 - rank / static_cast<float>(sorted.size()))));
   });
 }

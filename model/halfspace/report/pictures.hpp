@@ -25,7 +25,7 @@ struct Picture {
   }
 };
 
-/// The triangles that own the depth buffer, lit from the upper left. A frame has no normals and no projection
+/// The triangles that own the surface, lit from the upper left. A frame has no normals and no projection
 /// matrix, so faces are rebuilt from clip space under an assumed vertical view of 60 degrees. One hue a draw.
 /// Needs Surface::visible.
 Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_t surface);

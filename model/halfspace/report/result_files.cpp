@@ -24,18 +24,26 @@ void write_array(const std::filesystem::path& path, const char* descr, int width
   writer.finish();
 }
 
-void write_arrays(OutputFolder& folder, const Surface& surface, std::size_t number) {
+void write_arrays(OutputFolder& folder, const Surface& surface, const std::string& label) {
   const int width = surface.codes.width();
   const int height = surface.codes.height();
-  write_array<float>(folder.file(fmt::format("depth{}.npy", number)), "'<f4'", width, height,
-                     [&](int x, int y) { return depth_of_code(surface.format, surface.codes.at(x, y)); });
-  write_array<std::uint16_t>(folder.file(fmt::format("fragments{}.npy", number)), "'<u2'", width, height,
+  const auto array = [&](const char* kind) { return folder.file(fmt::format("{}{}.npy", kind, label)); };
+  if (!surface.target) {
+    write_array<float>(array("depth"), "'<f4'", width, height,
+                       [&](int x, int y) { return depth_of_code(surface.format, surface.codes.at(x, y)); });
+  }
+  write_array<std::uint16_t>(array("fragments"), "'<u2'", width, height,
                              [&](int x, int y) { return surface.fragments.at(x, y); });
-  write_array<std::uint16_t>(folder.file(fmt::format("survivors{}.npy", number)), "'<u2'", width, height,
+  write_array<std::uint16_t>(array("survivors"), "'<u2'", width, height,
                              [&](int x, int y) { return surface.survivors.at(x, y); });
 }
 
 }  // namespace
+
+std::string surface_label(const FrameResult& result, std::size_t number) {
+  const std::optional<std::uint32_t>& target = result.surfaces[number].target;
+  return target ? fmt::format("_target{}", *target) : fmt::format("{}", number);
+}
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
                         const StallPlan& stalls, const RunResult& result,
@@ -45,13 +53,16 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     if (surface.codes.empty()) {
       continue;  // no target uses this number
     }
-    write_arrays(folder, surface, i);
+    const std::string label = surface_label(result.frame, i);
+    write_arrays(folder, surface, label);
     if (surface.sums.empty()) {
       continue;  // no pictures asked for
     }
-    const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, i)); };
+    const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, label)); };
     write_png(picture("shaded"), shaded_picture(frame, result.frame, i));
-    write_png(picture("depth"), depth_picture(surface));
+    if (!surface.target) {
+      write_png(picture("depth"), depth_picture(surface));
+    }
     write_png(picture("overdraw"), overdraw_picture(surface));
     if (!result.reference) {  // a reference has no tiles
       write_png(picture("tiles"), tile_picture(surface, config.tile_walker.tile_size));

@@ -209,7 +209,8 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
-    json["surfaces"].push_back({{"surface", i},
+    json["surfaces"].push_back({{"surface", surface.target ? Json() : Json(i)},
+                                {"target", surface.target ? Json(*surface.target) : Json()},
                                 {"format", name(surface.format)},
                                 {"width", surface.codes.width()},
                                 {"height", surface.codes.height()},

@@ -17,7 +17,7 @@ namespace halfspace {
 
 inline constexpr const char* kStatsFile = "stats.json";
 inline constexpr const char* kStatsSchema = "halfspace-stats";
-inline constexpr int kStatsSchemaVersion = 4;
+inline constexpr int kStatsSchemaVersion = 5;
 
 /// Bytes that went between the z cache and memory: of draws, of clears that are drawn, and of the flush.
 std::uint64_t memory_bytes_read(const FrameResult& result);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/mesh_camera.hpp"
 #include "halfspace/scene/validate.hpp"
 
 namespace halfspace {
@@ -36,12 +37,12 @@ std::string to_text(glm::dvec3 p) { return fmt::format("({}, {}, {})", p.x, p.y,
 
 void check_camera(const Camera& camera, std::string_view name) {
   if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera fov is {}; legal: above 0 and below 180 degrees", name, camera.fov_degrees));
   }
   const auto check_size = [&](std::string_view field, std::uint32_t value) {
     if (value < 1 || value > kMaxTargetSize) {
-      throw InputError(
+      throw OptionError(
           fmt::format("{}: camera {} is {}; legal: 1 to {} pixels", name, field, value, kMaxTargetSize));
     }
   };
@@ -49,7 +50,7 @@ void check_camera(const Camera& camera, std::string_view name) {
   check_size("height", camera.height);
   const auto check_point = [&](std::string_view field, const std::optional<glm::dvec3>& point) {
     if (point && !is_finite(*point)) {
-      throw InputError(
+      throw OptionError(
           fmt::format("{}: camera {} is {}; legal: finite numbers", name, field, to_text(*point)));
     }
   };
@@ -57,7 +58,7 @@ void check_camera(const Camera& camera, std::string_view name) {
   check_point("at", camera.at);
   check_point("up", camera.up);
   if (camera.up && !(glm::length(*camera.up) > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera up is {}; legal: a vector that is not 0", name, to_text(*camera.up)));
   }
 }
@@ -137,13 +138,6 @@ double fitting_distance(std::span<const glm::dvec3> points, glm::dvec3 at, glm::
   return distance > 0 ? distance * (1 + kDepthMargin) : 1;
 }
 
-/// World to clip space, -w <= z <= w: first the eye is subtracted, which is exact or nearly so however far
-/// both are from the origin, then the rest is applied.
-struct View {
-  glm::dvec3 eye;
-  glm::dmat4 from_eye;
-};
-
 /// Near and far are around the points.
 View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::string_view name) {
   const double fov_y = glm::radians(camera.fov_degrees);
@@ -161,14 +155,14 @@ View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::stri
   }
   const double distance = glm::length(eye - at);
   if (!(distance > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera eye and at are both {}; legal: two different points", name, to_text(at)));
   }
   const glm::dvec3 backward = (eye - at) / distance;
   const glm::dvec3 up = up_for(camera, backward);
   if (std::abs(glm::dot(up, backward)) > kMostParallel) {
-    throw InputError(fmt::format("{}: camera up {} is along its line of sight; legal: across it", name,
-                                 to_text(*camera.up)));
+    throw OptionError(fmt::format("{}: camera up {} is along its line of sight; legal: across it", name,
+                                  to_text(*camera.up)));
   }
 
   double nearest = std::numeric_limits<double>::infinity();
@@ -179,7 +173,7 @@ View view_of(const Camera& camera, std::span<const glm::dvec3> points, std::stri
     farthest = std::max(farthest, depth);
   }
   if (!(farthest > 0)) {
-    throw InputError(
+    throw OptionError(
         fmt::format("{}: camera eye {} looking at {} has the whole mesh behind it; legal: some in front",
                     name, to_text(eye), to_text(at)));
   }
@@ -227,11 +221,15 @@ Command draw_command(const Camera& camera) {
 Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view name) {
   check_camera(camera, name);
   check_mesh(mesh, name);
-  const View view = view_of(camera, used_positions(mesh, name), name);
+  const std::vector<glm::dvec3> points = used_positions(mesh, name);
+  const double aspect = static_cast<double>(camera.width) / camera.height;
+  const View view = camera.of_mesh ? view_of_mesh_camera(mesh, *camera.of_mesh, aspect, points, name)
+                                   : view_of(camera, points, name);
 
   Frame frame;
   frame.name = name;
   frame.left_out = mesh.left_out;
+  for (const MeshCamera& c : mesh.cameras) frame.cameras.push_back(c.name);
   frame.targets.push_back({.width = camera.width,
                            .height = camera.height,
                            .samples = 1,

@@ -80,11 +80,13 @@ void add_samples(Pieces& pieces, PixelRun run, std::int32_t y, const Code& code)
 
 }  // namespace
 
-bool is_far(double depth) { return !(std::abs(depth) < (1 << kVertexDepthRange)); }
-
-bool may_be_tiny(const std::array<double, 3>& z) {
+bool may_be_tiny(const std::array<double, 3>& z, const DepthRange& limits) {
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
-  return most > 0 && least < tiny_limit(z);
+  if ((most <= 0 && limits.least >= 0) || (least == 0 && most == 0)) {
+    return false;
+  }
+  const double limit = tiny_limit(z);
+  return least < limit && most > -limit;
 }
 
 void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,

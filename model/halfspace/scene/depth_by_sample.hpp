@@ -3,9 +3,9 @@
 /// edges stay as they are, so every sample is covered once, or not, as if z were nothing. Depth of such
 /// samples is that of the plane, rounded as doubles round.
 ///
-/// Far: a vertex is too far outside [0, 1]. Depth clamp lets that happen, where a triangle comes close to the
-/// eye: z / w has no bound. Samples outside the depth range take its ends, in few pieces; inside it a sample
-/// is a piece, of which there are few, as z changes by much from one to the next.
+/// Far: a vertex is too far outside the depth range. Depth clamp lets that happen, where a triangle comes
+/// close to the eye: z / w has no bound. Samples outside the depth range take its ends, in few pieces; inside
+/// it a sample is a piece, of which there are few, as z changes by much from one to the next.
 ///
 /// Tiny: a float32 depth far below the largest vertex, next to where the plane meets 0. A unit of its last
 /// place is less than what the interpolator `plane` keeps, whose error is a fixed part of the largest vertex
@@ -22,7 +22,7 @@
 
 namespace halfspace {
 
-/// The depth range of a draw, in [0, 1].
+/// What depths are kept within: those of float32 surfaces may leave [0, 1].
 struct DepthRange {
   double least;
   double most;
@@ -34,11 +34,8 @@ struct SampleGrid {
   PixelRect screen;
 };
 
-/// True where the packet of a triangle cannot hold it: a vertex depth, or an offset.
-bool is_far(double depth);
-
-/// True where a float32 triangle may have tiny depths: one vertex is far less than another.
-bool may_be_tiny(const std::array<double, 3>& z);
+/// True where a float32 triangle may have tiny depths within `limits`: one vertex is far less than another.
+bool may_be_tiny(const std::array<double, 3>& z, const DepthRange& limits);
 
 /// Appends pieces of the triangle. `z` is that of the vertices, one of them far, with polygon offset.
 void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,

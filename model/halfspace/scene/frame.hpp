@@ -91,6 +91,15 @@ struct Command {
   Scissor scissor;  ///< of a clear: the cleared rectangle
 
   [[nodiscard]] bool has(Flag flag) const { return (flags & static_cast<std::uint32_t>(flag)) != 0; }
+
+  /// On float32 surfaces a draw's depth range, and what a clear sets depth to, may leave [0, 1]
+  /// (VK_EXT_depth_range_unrestricted; OpenGL's NV_depth_buffer_float).
+  [[nodiscard]] bool is_unrestricted(DepthFormat format) const {
+    const auto outside = [](float depth) { return depth < 0 || depth > 1; };
+    return format == DepthFormat::kFloat32 &&
+           (kind == CommandKind::kDraw ? outside(depth_range.x) || outside(depth_range.y)
+                                       : has(Flag::kClearDepth) && outside(clear_depth));
+  }
 };
 
 struct Frame {
@@ -101,6 +110,7 @@ struct Frame {
   std::vector<std::uint32_t> indices;  ///< relative to the draw's first_vertex, three a triangle
   std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
   std::vector<std::string> left_out;   ///< what of the input is not in the frame: "3 points and lines"
+  std::vector<std::string> cameras;    ///< names of the cameras that stand in the mesh's file
 };
 
 }  // namespace halfspace

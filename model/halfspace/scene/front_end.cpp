@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "halfspace/scene/depth_by_sample.hpp"
+#include <limits>
 
 namespace halfspace {
 namespace {
@@ -14,6 +13,14 @@ constexpr double kGuardBand = 32767;
 
 bool finite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+/// 2^kVertexDepthRange of the power of two at or above the depth range's larger end, which is 1 or more; but
+/// no more than a float32 holds twice.
+double far_depth(const DepthRange& range) {
+  const double largest = std::max({1.0, std::abs(range.least), std::abs(range.most)});
+  const int above = std::ilogb(largest) + (std::exp2(std::ilogb(largest)) < largest ? 1 : 0);
+  return std::ldexp(1.0, std::min(kVertexDepthRange + above, 127));
 }
 
 }  // namespace
@@ -35,6 +42,14 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
   z_bias_ = symmetric ? (far + near) / 2 : near;
   z_least_ = std::min(near, far);
   z_most_ = std::max(near, far);
+  far_ = far_depth({z_least_, z_most_});
+  unrestricted_ = draw.is_unrestricted(format);
+  if (depth_clamp_) {
+    limits_ = {z_least_, z_most_};
+  } else if (unrestricted_) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    limits_ = {-kLargest, kLargest};
+  }
 
   const double x_half = draw.viewport.z / 2.0;
   const double y_half = draw.viewport.w / 2.0;
@@ -124,6 +139,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
     }
     const SampleGrid grid{.sub_pixel_bits = sub_pixel_bits_, .screen = screen_};
     double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
+    const auto is_far = [this](double depth) { return !(std::abs(depth) < far_); };
     if (is_far(offset) || std::ranges::any_of(z, is_far)) {
       for (double& depth : z) {
         depth += offset;
@@ -132,7 +148,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
     }
     const std::size_t before = out.size();
     if (std::ranges::any_of(z, is_far)) {
-      emit_far(triangle, z, {z_least_, z_most_}, format_, grid, out);
+      emit_far(triangle, z, limits_, format_, grid, out);
       counters.emitted += out.size() - before;
       ++counters.far_depth;
       return;
@@ -145,7 +161,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       for (double& depth : z) {
         depth = static_cast<float>(depth);
       }
-      if (may_be_tiny(z)) {
+      if (may_be_tiny(z, limits_)) {
         counters.tiny_depth += emit_tiny(triangle, z, grid, out) ? 1 : 0;
         counters.emitted += out.size() - before;
         return;
@@ -185,8 +201,10 @@ double FrontEnd::offset_of(const ScreenTriangle& snapped, const std::array<doubl
   offset = clamp > 0 ? std::min(offset, clamp) : clamp < 0 ? std::max(offset, clamp) : offset;
   // Nothing more changes a fragment: with this much all are clamped. Of far vertices a double may not hold
   // it.
+  const DepthRange ends = unrestricted_ ? limits_ : DepthRange{.least = 0, .most = 1};
   const auto [z_min, z_max] = std::minmax({z[0], z[1], z[2]});
-  return is_far(z_min) || is_far(z_max) ? offset : std::clamp(offset, -1 - z_max, 2 - z_min);
+  return -z_min >= far_ || z_max >= far_ ? offset
+                                         : std::clamp(offset, ends.least - 1 - z_max, ends.most + 1 - z_min);
 }
 
 }  // namespace halfspace

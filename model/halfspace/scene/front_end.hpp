@@ -14,6 +14,7 @@
 
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/scene/clip.hpp"
+#include "halfspace/scene/depth_by_sample.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/units/counters.hpp"
 #include "halfspace/units/packets.hpp"
@@ -64,7 +65,10 @@ class FrontEnd {
   double z_bias_;
   double z_least_;  ///< the depth range
   double z_most_;
-  std::array<Clip, 6> planes_;  ///< inside: dot(plane, v) >= 0
+  double far_;                                ///< vertex depths and offsets of this magnitude or more are far
+  bool unrestricted_;                         ///< see Command
+  DepthRange limits_{.least = 0, .most = 1};  ///< fragments are kept within these
+  std::array<Clip, 6> planes_;                ///< inside: dot(plane, v) >= 0
   std::size_t plane_count_ = 0;
 };
 

@@ -111,16 +111,18 @@ void check_finite(const Place& place, std::string_view field, float value) {
 }
 
 void check_unit(const Place& place, std::string_view field, float value) {
-  if (!(value >= 0 && value <= 1)) place.fail("{} is {}; legal: 0 to 1", field, value);
+  if (!(value >= 0 && value <= 1)) place.fail("{} is {}; legal on a unorm surface: 0 to 1", field, value);
 }
 
-void check_state(const Place& place, const Command& command) {
+void check_state(const Place& place, const Command& command, DepthFormat format) {
   check_finite(place, "viewport.x", command.viewport.x);
   check_finite(place, "viewport.y", command.viewport.y);
   check_finite(place, "viewport.width", command.viewport.z);
   check_finite(place, "viewport.height", command.viewport.w);
-  check_unit(place, "depth_range.near", command.depth_range.x);
-  check_unit(place, "depth_range.far", command.depth_range.y);
+  const bool is_unorm = unorm_bits(format) != 0;
+  const auto check_depth = is_unorm ? check_unit : check_finite;
+  check_depth(place, "depth_range.near", command.depth_range.x);
+  check_depth(place, "depth_range.far", command.depth_range.y);
   check_finite(place, "clear_depth", command.clear_depth);
   check_finite(place, "offset_factor", command.offset_factor);
   check_finite(place, "offset_units", command.offset_units);
@@ -174,6 +176,8 @@ void check_draw(const Place& place, const Frame& frame, const Command& draw) {
 void validate(const Frame& frame) {
   check_targets(frame);
   std::uint64_t triangles = 0;
+  std::vector<bool> drawn_to(frame.targets.size(), false);
+  std::uint64_t bare_pixels = 0;
   for (std::size_t i = 0; i < frame.commands.size(); ++i) {
     const Command& command = frame.commands[i];
     const bool draw = command.kind == CommandKind::kDraw;
@@ -188,14 +192,22 @@ void validate(const Frame& frame) {
     if (command.target >= frame.targets.size()) {
       place.fail("target is {}; legal: 0 to {}", command.target, frame.targets.size() - 1);
     }
-    check_state(place, command);
-    if (clear && command.has(Flag::kClearDepth)) check_unit(place, "clear_depth", command.clear_depth);
+    check_state(place, command, frame.targets[command.target].depth_format);
     if (!draw) continue;
     triangles += command.index_count / 3;
     if (triangles > kMaxFrameTriangles) {
       place.fail("triangles up to here are {}; legal: at most {} in a frame", triangles, kMaxFrameTriangles);
     }
     check_draw(place, frame, command);
+    const Target& target = frame.targets[command.target];
+    if (target.depth_surface != kNoSurface || drawn_to[command.target]) continue;
+    drawn_to[command.target] = true;
+    bare_pixels += std::uint64_t{target.width} * target.height;
+    if (bare_pixels > kMaxBarePixels) {
+      place.fail(
+          "targets without depth that are drawn to up to here have {} pixels; legal: at most {} in all",
+          bare_pixels, kMaxBarePixels);
+    }
   }
 }
 

@@ -174,6 +174,15 @@ class EglLlvmpipe final : public Llvmpipe {
   }
 
   void load(const Frame& frame, const Config& config) override {
+    for (std::size_t i = 0; i < frame.commands.size(); ++i) {
+      const Command& command = frame.commands[i];
+      if (command.is_unrestricted(frame.targets[command.target].depth_format)) {
+        throw InputError(
+            fmt::format("{}: command {}: its depth leaves 0 to 1; llvmpipe would clamp it: leave it out "
+                        "(--without llvmpipe)",
+                        frame.name, i));
+      }
+    }
     drop();
     frame_ = &frame;
     config_ = &config;
@@ -257,7 +266,8 @@ class EglLlvmpipe final : public Llvmpipe {
 
   /// A renderbuffer for each depth surface and a framebuffer for each target.
   void make_targets() {
-    const std::vector<Surface> surfaces = make_surfaces(*frame_, *config_, Watch{.count_pixels = false});
+    const std::vector<Surface> all = make_surfaces(*frame_, *config_, Watch{.count_pixels = false});
+    const std::span<const Surface> surfaces = depth_surfaces(all);
     surfaces_.assign(surfaces.size(), 0);
     gl_.GenRenderbuffers(static_cast<GLsizei>(surfaces_.size()), surfaces_.data());
     formats_.clear();

@@ -228,7 +228,7 @@ ScalarLoop::ScalarLoop(const Frame& frame, const Config& config)
   while (first_draw_ < draws_.size() && draws_[first_draw_].clears) {
     ++first_draw_;
   }
-  for (const Surface& surface : result.surfaces) {
+  for (const Surface& surface : depth_surfaces(result.surfaces)) {
     surfaces_.push_back({.width = surface.codes.width(), .height = surface.codes.height(), .depth = {}});
     surfaces_.back().depth.resize(static_cast<std::size_t>(surface.codes.width()) *
                                   static_cast<std::size_t>(surface.codes.height()));

@@ -64,8 +64,7 @@ class PrefixRun {
       if (draw_ != nullptr && kLast < Last::kFrontEnd) {
         continue;
       }
-      surface_ =
-          draw_ == nullptr || draw_->surface == kNoSurface ? nullptr : &result_.surfaces[draw_->surface];
+      surface_ = draw_ == nullptr ? nullptr : &result_.surfaces[draw_->drawn_on];
       while (const std::optional<SourceItem> item = source.next()) {
         if (item->draw == nullptr) {
           clear_surface(result_.surfaces[item->surface], item->code);
@@ -126,15 +125,14 @@ class PrefixRun {
       return drop(burst);
     } else {
       const Coverage& coverage = burst.packet.coverage;
-      std::uint32_t* const stored =
-          surface_ == nullptr ? nullptr : surface_->codes.tile(coverage.tile_x, coverage.tile_y);
+      std::uint32_t* const stored = passage::stored_codes(*surface_, *draw_, coverage);
       const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
       passage::write_late<TileSize>(tested, codes_, *draw_, stored);
       if constexpr (kLast < Last::kPixelCounts) {
         return drop(tested);
       }
       passage::sink<TileSize>(coverage.mask, tested, coverage.tile_x, coverage.tile_y, triangle_.triangle,
-                              *draw_, surface_);
+                              *draw_, *surface_);
       if (kLast >= Last::kZCache && touches_depth(draw_->early_z)) {
         const ZSurface& place = places_[draw_->surface];
         drop(passage::z_cache(z_cache_, place, coverage,

@@ -58,11 +58,11 @@ std::uint32_t barycentric_float(const DepthEquation& eq, std::int64_t e1, std::i
   const std::uint64_t depth = s.m * eq.reciprocal;
   const int place = s.exponent - 63 - eq.shift;
   if (eq.offset == 0) {
-    return sum < 0 ? 0 : float_bits(depth, place);
+    return sum < 0 ? 0u - float_bits(depth, place) : float_bits(depth, place);
   }
   const int cut = eq.exponent - kLongWordFraction - place;  // to a word; not negative, as depth < 2^exponent
   const auto word = static_cast<std::int64_t>(cut < 64 ? depth >> cut : 0);
-  return float_of_word(Int128{sum < 0 ? -word : word} + eq.offset, eq.exponent);
+  return code_of_word(Int128{sum < 0 ? -word : word} + eq.offset, eq.exponent);
 }
 
 }  // namespace halfspace

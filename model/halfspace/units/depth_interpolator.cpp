@@ -37,10 +37,10 @@ void set_float_range(std::uint32_t offset, const DepthLimits& limits, DepthEquat
   // Without an offset as they are: a word may have to cut them.
   const auto code = [&](std::uint32_t bits) {
     const std::uint32_t moved =
-        out.offset != 0 ? float_of_word(Int128{word_of_float(bits, out.exponent)} + out.offset, out.exponent)
-        : bits >> 31 != 0 ? 0
-                          : bits;
-    return std::clamp(moved, limits.least, limits.most);
+        out.offset != 0 ? code_of_word(Int128{word_of_float(bits, out.exponent)} + out.offset, out.exponent)
+                        : code_of_float(bits);
+    return static_cast<std::uint32_t>(
+        std::clamp(code_order(moved), code_order(limits.least), code_order(limits.most)));
   };
   out.min_code = code(z_min);
   out.max_code = code(z_max);
@@ -53,11 +53,10 @@ void make_depth_equation(const std::array<ScreenVertex, 3>& v, std::int64_t offs
                          const DepthLimits& limits, DepthInterpolator interpolator, DepthEquation& out) {
   out.z = {v[0].z, v[1].z, v[2].z};
   out.area2 = area2;
-  const DepthLimits within{.least = limits.least, .most = std::min(limits.most, largest_code(format))};
   if (format == DepthFormat::kFloat32) {
-    set_float_range(static_cast<std::uint32_t>(offset), within, out);
+    set_float_range(static_cast<std::uint32_t>(offset), limits, out);
   } else {
-    set_unorm_range(offset, format, within, out);
+    set_unorm_range(offset, format, {limits.least, std::min(limits.most, largest_code(format))}, out);
   }
   if (interpolator == DepthInterpolator::kPlane) {
     set_plane(v[0], edge, format, out);

@@ -15,11 +15,11 @@ namespace halfspace {
 
 enum class DepthInterpolator : std::uint8_t { kPlane, kBarycentric };
 
-/// Stored codes between which every fragment of a draw is kept: those of the depth range with depth clamp, of
-/// 0 and 1 without.
+/// Stored codes between which every fragment of a draw is kept: those of the depth range with depth clamp;
+/// without, those of 0 and 1, or of all floats where the depth range is unrestricted.
 struct DepthLimits {
   std::uint32_t least = 0;
-  std::uint32_t most = ~0u;  ///< no more than the code of 1, whatever is here
+  std::uint32_t most = largest_code(DepthFormat::kFloat32);  ///< on unorm no more than the code of 1
 };
 
 /// Fills `out`, all but `bias`, which must be set where the interpolator uses it. `v` in positive order, with

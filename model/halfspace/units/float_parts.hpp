@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "halfspace/numerics/depth.hpp"
+
 namespace halfspace {
 
 /// A float32 as an integer of at most 24 bits times 2^exponent, and its sign.
@@ -22,13 +24,8 @@ constexpr FloatParts float_parts(std::uint32_t bits) {
                     : FloatParts{fraction | 0x800000u, field - 150, negative};
 }
 
-/// Orders float32 by value: a number that is less for the bits of a smaller float.
-constexpr std::int32_t float_order(std::uint32_t bits) {
-  const auto magnitude = static_cast<std::int32_t>(bits & 0x7FFFFFFFu);
-  return bits >> 31 != 0 ? -magnitude : magnitude;
-}
-
-/// The bits of the float32 nearest to m * 2^exponent, halves upwards. The value is at most about 2^16.
+/// The bits of the float32 nearest to m * 2^exponent, halves upwards. The value is less than 2^128 when it is
+/// rounded.
 constexpr std::uint32_t float_bits(std::uint64_t m, int exponent) {
   if (m == 0) {
     return 0;
@@ -62,9 +59,11 @@ constexpr std::int64_t word_of_float(std::uint32_t bits, int exponent) {
 
 __extension__ using Int128 = __int128;
 
-/// The float32 nearest to such a word, or to the sum of two; 0 where that is negative.
-constexpr std::uint32_t float_of_word(Int128 word, int exponent) {
-  return word <= 0 ? 0 : float_bits(static_cast<std::uint64_t>(word), exponent - kLongWordFraction);
+/// The code of the float32 nearest to such a word, or to the sum of two, halves away from zero.
+constexpr std::uint32_t code_of_word(Int128 word, int exponent) {
+  const std::uint32_t magnitude =
+      float_bits(static_cast<std::uint64_t>(word < 0 ? -word : word), exponent - kLongWordFraction);
+  return word < 0 ? 0u - magnitude : magnitude;
 }
 
 }  // namespace halfspace

@@ -125,9 +125,10 @@ HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, c
   see(must_retire());
   Verdict verdict;
   const bool accept = config_.accept && state.write && !state.late;
-  const std::uint32_t number = state.test ? surface.block(block.block_x, block.block_y) : 0;
+  const bool looks = state.test && !state.unrestricted;
+  const std::uint32_t number = looks ? surface.block(block.block_x, block.block_y) : 0;
   const HiZWord stored = word(number);
-  for (std::uint64_t left = state.test ? block.tiles : 0; left != 0; left &= left - 1) {
+  for (std::uint64_t left = looks ? block.tiles : 0; left != 0; left &= left - 1) {
     const int tile = std::countr_zero(left);
     const auto at = static_cast<std::size_t>(tile);
     const HiZOutcome outcome = hi_z_outcome(config_, block, tile, equation, state,
@@ -137,7 +138,7 @@ HiZ::Verdict HiZ::decide(const BlockJob& block, const DepthEquation& equation, c
     verdict.rejected |= std::uint64_t{outcome == HiZOutcome::kNonePasses} << tile;
     verdict.sure |= std::uint64_t{accept && outcome == HiZOutcome::kAllPass} << tile;
   }
-  const DepthMoves moves = state.test ? depth_moves(state.func, state.write) : DepthMoves{};
+  const DepthMoves moves = looks ? depth_moves(state.func, state.write) : DepthMoves{};
   std::uint64_t left = block.tiles & ~verdict.rejected;
   give_slot(block, left != 0, verdict);
   jobs_ += static_cast<std::uint64_t>(std::popcount(left));

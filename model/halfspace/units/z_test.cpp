@@ -27,7 +27,8 @@ void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, int su
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
     const auto at = static_cast<std::uint32_t>(bit);
     const std::int64_t stored = code(tile.at(at % TileSize, at / TileSize));
-    codes[at] = static_cast<std::uint32_t>(std::clamp<std::int64_t>(stored, eq.min_code, eq.max_code));
+    codes[at] = static_cast<std::uint32_t>(
+        std::clamp<std::int64_t>(stored, code_order(eq.min_code), code_order(eq.max_code)));
   });
 }
 
@@ -39,7 +40,7 @@ void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, const 
   };
   if (state.format == DepthFormat::kFloat32) {
     interpolate(LongWord{}, [&](std::int64_t word) {
-      return std::int64_t{float_of_word(Int128{word} + eq.offset, eq.exponent)};
+      return std::int64_t{code_order(code_of_word(Int128{word} + eq.offset, eq.exponent))};
     });
     return;
   }
@@ -71,10 +72,10 @@ void interpolate_barycentric(const SetupTriangle& triangle, const Coverage& cove
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
     const std::int64_t e1 = weight_edge(1, bit);
     const std::int64_t e2 = weight_edge(2, bit);
-    const std::int64_t stored = is_float ? std::int64_t{barycentric_float(eq, e1, e2)}
+    const std::int64_t stored = is_float ? std::int64_t{code_order(barycentric_float(eq, e1, e2))}
                                          : (barycentric_unorm(eq, e1, e2) + offset) >> fraction;
-    codes[static_cast<std::size_t>(bit)] =
-        static_cast<std::uint32_t>(std::clamp<std::int64_t>(stored, eq.min_code, eq.max_code));
+    codes[static_cast<std::size_t>(bit)] = static_cast<std::uint32_t>(
+        std::clamp<std::int64_t>(stored, code_order(eq.min_code), code_order(eq.max_code)));
   });
 }
 

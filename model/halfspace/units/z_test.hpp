@@ -18,9 +18,10 @@ namespace halfspace {
 
 /// The state of a draw that early_z looks at.
 struct EarlyZState {
-  bool test = false;   ///< off: every fragment passes and nothing is written
-  bool write = false;  ///< passing fragments write; only with the test on
-  bool late = false;   ///< what passes writes after the shader, see late_writes.hpp; only with write
+  bool test = false;          ///< off: every fragment passes and nothing is written
+  bool write = false;         ///< passing fragments write; only with the test on
+  bool late = false;          ///< what passes writes after the shader, see late_writes.hpp; only with write
+  bool unrestricted = false;  ///< the surface may hold depths outside [0, 1]: hi_z does not look at it
   DepthFunc func = DepthFunc::kAlways;
   DepthFormat format = DepthFormat::kNone;
   DepthInterpolator interpolator = DepthInterpolator::kPlane;

@@ -168,6 +168,9 @@ class Study {
       return;
     }
     ++kills_.dead;
+    if (at_.draw->early_z.unrestricted) {
+      return;  // hi_z does not look at it
+    }
     CodeBounds burst{.least = ~0u, .most = 0};
     for (std::size_t bit = 0; bit < codes_.size(); ++bit) {
       if ((coverage.mask.word[bit / 64] >> (bit % 64) & 1) != 0) {

@@ -27,11 +27,12 @@ inline void hi_z(HiZ& unit, BlockJob& block, const DepthEquation& equation, cons
 }
 
 /// What hi_z is told of a burst that touched `touched`, of `parts`. `stored`: the tile's codes (TileSize^2,
-/// row order) after its test, without what it writes late.
+/// row order) after its test, without what it writes late. Nothing where hi_z does not look at the surface.
 template <int TileSize>
 HiZUpdate hi_z_update(const DrawContext& draw, const DepthEquation& equation, const std::uint32_t* stored,
                       std::uint8_t touched, int parts) {
-  HiZUpdate update = halfspace::hi_z_update<TileSize>(stored, touched, parts);
+  HiZUpdate update =
+      halfspace::hi_z_update<TileSize>(stored, draw.early_z.unrestricted ? std::uint8_t{0} : touched, parts);
   if (draw.early_z.late) {
     allow_for_late_write(update, equation, draw.early_z);
   }

@@ -38,25 +38,21 @@ void count_samples(const TileMask& mask, std::uint16_t* counts) {
   }
 }
 
-/// `surface` is the draw's, null where its target has none; `covered` and what is in `tested` are of one tile
-/// of it, and `triangle` is the triangle's number in the draw. Of a clear nothing is counted: it only makes
-/// its samples invisible.
+/// `surface` is what is drawn on; `covered` and what is in `tested` are of one tile of it, and `triangle` is
+/// the triangle's number in the draw. Of a clear nothing is counted: it only makes its samples invisible.
 template <int TileSize>
 void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y, std::uint32_t triangle,
-          const DrawContext& draw, Surface* surface) {
-  if (surface == nullptr) {
-    return;
-  }
-  if (!draw.is_clear() && !surface->fragments.empty()) {
-    count_samples<TileSize>(covered, surface->fragments.tile(tile_x, tile_y));
-    count_samples<TileSize>(tested.passed, surface->survivors.tile(tile_x, tile_y));
+          const DrawContext& draw, Surface& surface) {
+  if (!draw.is_clear() && !surface.fragments.empty()) {
+    count_samples<TileSize>(covered, surface.fragments.tile(tile_x, tile_y));
+    count_samples<TileSize>(tested.passed, surface.survivors.tile(tile_x, tile_y));
   }
   if (draw.sums != nullptr) {
     count_quads<TileSize>(*draw.sums, tile_x, tile_y, covered);
   }
   if (draw.keeps_visible) {
     const std::uint32_t shown = draw.is_clear() ? kNothingVisible : draw.first_triangle + triangle;
-    std::uint32_t* const visible = surface->visible.tile(tile_x, tile_y);
+    std::uint32_t* const visible = surface.visible.tile(tile_x, tile_y);
     for (std::size_t i = 0; i < kMaskWords<TileSize>; ++i) {
       for (std::uint64_t left = tested.kept.word[i]; left != 0; left &= left - 1) {
         visible[i * 64 + static_cast<std::size_t>(std::countr_zero(left))] = shown;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "halfspace/machine/draw_context.hpp"
+#include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/units/z_test.hpp"
 
@@ -40,12 +41,17 @@ TileMask kept(const TileMask& passed, int tile_x, int tile_y, std::uint32_t tria
                            : passed;
 }
 
+/// What is stored in a tile of the surface that a draw is drawn on; null where that has no depth.
+inline std::uint32_t* stored_codes(Surface& surface, const DrawContext& draw, const Coverage& coverage) {
+  return draw.surface == kNoSurface ? nullptr : surface.codes.tile(coverage.tile_x, coverage.tile_y);
+}
+
 struct Tested {
   TileMask passed;
   TileMask kept;  ///< by the shader
 };
 
-/// Tests a burst. `stored`: the tile's codes in the surface, null where the test is off; those that
+/// Tests a burst. `stored`: the tile's codes, null where the target has no depth; those that
 /// pass are written there, where the draw does not write late: then write_late() follows. `codes` is filled
 /// where the test is on, or where the draw's quads are recorded.
 template <int TileSize>

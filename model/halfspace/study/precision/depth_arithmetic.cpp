@@ -77,8 +77,8 @@ DoublePlane::DoublePlane(const DepthTriangle& t, DepthFormat format) : format_(f
 }
 
 std::uint32_t DoublePlane::code(std::int64_t x, std::int64_t y) const {
-  return reference::encode_depth(plane_.at(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5),
-                                 static_cast<reference::Storage>(format_));
+  const double depth = plane_.at(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+  return reference::encode_depth(std::clamp(depth, 0.0, 1.0), static_cast<reference::Storage>(format_));
 }
 
 WordPlane::WordPlane(const DepthTriangle& t, DepthFormat format, int bits) : format_(format), bits_(bits) {

@@ -24,14 +24,14 @@ LineMemory::LineMemory(const Config& config, const std::vector<Surface>& surface
       read_bytes_(static_cast<std::uint32_t>(config.memory.read_bytes)),
       write_bytes_(static_cast<std::uint32_t>(config.memory.write_bytes)),
       stride_(std::size_t{4} * samples_) {
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     bytes_of_line_.insert(bytes_of_line_.end(), places[i].tiles * static_cast<std::uint32_t>(parts_),
                           places[i].line_bytes);
   }
   bytes_.resize(bytes_of_line_.size() * stride_);
   stored_ = bytes_of_line_;
   cleared_.resize(bytes_of_line_.size());
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     const std::uint32_t first = places[i].first_tile * static_cast<std::uint32_t>(parts_);
     const std::uint32_t count = places[i].tiles * static_cast<std::uint32_t>(parts_);
     const std::size_t sample = places[i].line_bytes / samples_;

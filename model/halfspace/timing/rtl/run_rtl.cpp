@@ -40,6 +40,22 @@ void check_size(const Frame& frame, const RunState& run) {
   }
 }
 
+/// The codes of depths below 0 are negative numbers, which the RTL takes for large ones, and hi_z of the RTL
+/// looks at every surface.
+void check_depths(const Frame& frame) {
+  for (std::size_t i = 0; i < frame.commands.size(); ++i) {
+    const Command& command = frame.commands[i];
+    if (!command.is_unrestricted(frame.targets[command.target].depth_format)) {
+      continue;
+    }
+    const bool is_clear = command.kind == CommandKind::kClear;
+    throw InputError(fmt::format(
+        "{}: command {}: {}; legal for the RTL: 0 to 1", frame.name, i,
+        is_clear ? fmt::format("clear_depth is {}", command.clear_depth)
+                 : fmt::format("depth_range is {} to {}", command.depth_range.x, command.depth_range.y)));
+  }
+}
+
 /// Driver, scoreboard, sink and memory of one run.
 template <int TileSize>
 class RtlRun final : public PortListener {
@@ -92,6 +108,7 @@ class RtlRun final : public PortListener {
 RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions& options,
                   VerilatedPipeline& pipeline) {
   check_options(options);
+  check_depths(frame);
   RtlResult result;
   RunState run(frame, config, options, pipeline, result.report);
   check_size(frame, run);

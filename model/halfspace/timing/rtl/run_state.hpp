@@ -50,7 +50,7 @@ struct RunState {
   bool flushing = false;  ///< at the end of the frame
 
   FrameResult result;                     ///< its codes are the model's, until the end
-  std::vector<ZSurface> places;           ///< by surface
+  std::vector<ZSurface> places;           ///< by depth surface
   std::vector<HiZSurface> blocks;         ///< the same for hi_z
   std::vector<std::uint32_t> clear_code;  ///< of each surface's last clear by the z cache
   std::deque<DrawContext> draws;          ///< tokens point into it
@@ -58,9 +58,8 @@ struct RunState {
 
   [[nodiscard]] bool happens(Event event) const { return (out.events & bit(event)) != 0; }
 
-  [[nodiscard]] Surface* surface(const DrawContext& draw) {
-    return draw.surface == kNoSurface ? nullptr : &result.surfaces[draw.surface];
-  }
+  /// What a draw is drawn on.
+  [[nodiscard]] Surface& surface(const DrawContext& draw) { return result.surfaces[draw.drawn_on]; }
 
   void note(std::vector<Cycle> PacketTimes::*stream) {
     if (options.packet_times) {

@@ -300,9 +300,7 @@ class Scoreboard {
     memory_.look_up_for(&draw);
     run_.meter.take(Link::kEarlyZPending, &draw, run_.cycle);
     to_test_.push_back(&draw);
-    Surface* const surface = run_.surface(draw);
-    std::uint32_t* const stored =
-        surface == nullptr ? nullptr : surface->codes.tile(coverage.tile_x, coverage.tile_y);
+    std::uint32_t* const stored = passage::stored_codes(run_.surface(draw), draw, coverage);
     TileCodes<TileSize> codes{};
     // Not the passage: what the test counts is counted of what the RTL gives.
     const TileMask passed = z_test<TileSize>(*token.triangle, burst, draw.early_z, stored, codes);

@@ -124,9 +124,8 @@ class TestedSink {
       answers_.push_back({.cycle = run_.cycle + static_cast<std::uint64_t>(run_.config.late_z.latency),
                           .kept = tested.kept});
     }
-    Surface* const surface = run_.surface(draw);
-    if (surface != nullptr &&
-        (beat.tile_x >= surface->codes.tiles_x() || beat.tile_y >= surface->codes.tiles_y())) {
+    Surface& surface = run_.surface(draw);
+    if (beat.tile_x >= surface.codes.tiles_x() || beat.tile_y >= surface.codes.tiles_y()) {
       return;  // its packet differs, and is reported
     }
     passage::sink<TileSize>(covered_, tested, beat.tile_x, beat.tile_y, triangle.triangle, draw, surface);

@@ -183,7 +183,7 @@ void RasterPipeline::end_frame(Cycle cycles) {
 }
 
 TimedResult RasterPipeline::take_result() {
-  for (std::size_t i = 0; i < run_.result.surfaces.size(); ++i) {
+  for (std::size_t i = 0; i < run_.places.size(); ++i) {
     units_->early_z.read_surface(static_cast<std::uint32_t>(i), run_.result.surfaces[i].codes);
   }
   return {.frame = std::move(run_.result), .cycles = cycles_, .times = std::move(run_.times)};

@@ -61,7 +61,7 @@ struct RunState {
   bool notes_times = false;
   PacketTimes times;  ///< where they are noted
   FrameResult result;
-  std::vector<ZSurface> places;   ///< by surface
+  std::vector<ZSurface> places;   ///< by depth surface
   std::deque<DrawContext> draws;  ///< tokens point into it
   CycleBook book;
 
@@ -71,10 +71,8 @@ struct RunState {
     }
   }
 
-  /// The depth surface of a draw; null where its target has none.
-  [[nodiscard]] Surface* surface(const DrawContext& draw) {
-    return draw.surface == kNoSurface ? nullptr : &result.surfaces[draw.surface];
-  }
+  /// What a draw is drawn on.
+  [[nodiscard]] Surface& surface(const DrawContext& draw) { return result.surfaces[draw.drawn_on]; }
 
   /// The body of a process. The kernel would turn an exception into a report of its own; this keeps it for
   /// RasterPipeline::check. The process ends, and so the pipeline comes to rest.

@@ -1,0 +1,41 @@
+#include "halfspace/scene/gltf/morph.hpp"
+
+namespace halfspace::gltf {
+
+std::size_t count_targets(const Object& mesh) {
+  const std::vector<Object> primitives = mesh.objects("primitives");
+  return primitives.empty() ? 0 : primitives.front().objects("targets").size();
+}
+
+std::vector<double> morph_weights(const Object& node, const Object& mesh, const Pose& pose) {
+  if (pose.weights) return *pose.weights;
+  const std::size_t targets = count_targets(mesh);
+  if (node.has("weights")) return node.reals("weights", targets);
+  if (mesh.has("weights")) return mesh.reals("weights", targets);
+  return std::vector<double>(targets);
+}
+
+Morph::Morph(const Document& document, Buffers& buffers, const Object& primitive,
+             const std::vector<double>& weights, std::size_t vertices) {
+  const std::vector<Object> targets = primitive.objects("targets");
+  if (targets.size() != weights.size()) {
+    primitive.fail("targets has {} objects; legal: {}, as the mesh's first primitive", targets.size(),
+                   weights.size());
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (weights[i] == 0 || !targets[i].has("POSITION")) continue;
+    Accessor positions(document, buffers, targets[i].number("POSITION"), kPositionUse);
+    if (positions.count() != vertices) {
+      targets[i].fail("POSITION has {} elements; legal: {}, as the primitive's", positions.count(), vertices);
+    }
+    targets_.push_back({weights[i], positions});
+  }
+}
+
+glm::dvec3 Morph::displacement(std::size_t vertex) const {
+  glm::dvec3 sum(0);
+  for (const Target& target : targets_) sum += target.weight * target.positions.vec3(vertex);
+  return sum;
+}
+
+}  // namespace halfspace::gltf
