@@ -52,7 +52,7 @@ def obj():
             "numbers": "v 1e-3 -.5 +2.\nv 1e38 1 1 1 0 0 0\nv 0 0 0\nf 1 2 3\n", "bad": "v a b c\nf 0 1 9\n",
             "mark": "\ufeff" + v + "f 1 2 3\n", "utf16": b"\xff\xfev\0 \0",
             "comments": "# \\\n" + v + "f 1 2 3#4\nf 1/1/1 2 3 # \\\nusemtl a #b\nf 1 2 4\n",
-            "continued": "v 0 \\\n0 0\nv\\\r\n1 0 0\rv 0 1 0\nvn 1 \\ \n0 0\nf 1 2\\\n3 \\\nf 1 2 3\\",
+            "continued": "v 0 \\\n0 0\nv\\\r\n1 0 0\rv 0 1 0\nvn 1 \\ \n0 0\nf 1 2\\\n3 \\\n\nf 1 2 3\\",
             "not_finite": v + "v nan -inf 1.#QNAN\nv 1e400 -1e-400 1.#INF00\nf 1 2 5\nf 1 2\nf\nfo 1 2 3\n",
             "left_out": v + "curv 0 1 1 2\nsurf 0 1 0 1 1\nbzp 1\nnonsense\n\v\ff 1 2 3\ncall a.obj\n"}
 
