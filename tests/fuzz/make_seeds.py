@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,record,obj,ply,gltf}/*.
+"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,record,obj,ply,gltf,triangulate}/*.
 
 Each is the smallest file that reaches one branch of a reader. Standard library only.
 """
@@ -233,9 +233,20 @@ def gltf_features():
     return {name + ".glb": content for name, content in out.items()}
 
 
+def triangulate():
+    keyhole = [(0, 0), (9, 0), (9, 9), (0, 9), (0, 0), (3, 3), (3, 6), (6, 6), (6, 3), (3, 3)]
+    whisker = [(0, 0), (4, 0), (4, 2), (7, 2), (4, 2), (4, 4), (0, 4)]
+    bridge = [(0, 0), (2, 0), (2, 2), (4, 4), (6, 2), (8, 2), (8, 0), (9, 3), (6, 2), (4, 4), (2, 2), (0, 2)]
+    lattice = {"keyhole": keyhole, "whisker": whisker, "bridge": bridge, "crossing": [(0, 0), (9, 9), (9, 0), (0, 8)]}
+    seeds = {name: bytes([0]) + bytes(sum(points, ())) for name, points in lattice.items()}
+    seeds["doubles"] = b"d" + b"".join(struct.pack("<3d", *p) for p in CONCAVE)
+    return seeds
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for kind, make in (("ptf", ptf), ("record", record), ("obj", obj), ("ply", ply), ("gltf", gltf)):
+    for kind, make in (("ptf", ptf), ("record", record), ("obj", obj), ("ply", ply), ("gltf", gltf),
+                       ("triangulate", triangulate)):
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in make().items():
             (folder / kind / name).write_bytes(content.encode() if isinstance(content, str) else content)
