@@ -27,8 +27,8 @@ inline int orientation(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 
   const bool exact_differences = error_of_sum(a.x, -c.x, u.x) == 0 && error_of_sum(a.y, -c.y, u.y) == 0 &&
                                  error_of_sum(b.x, -c.x, v.x) == 0 && error_of_sum(b.y, -c.y, v.y) == 0;
-  if (exact_differences) {  // rounding keeps the order of the products, and their errors decide between
-                            // equals
+  if (exact_differences) {
+    // Rounding keeps the order of the products, and their errors decide between equals.
     if (left != right) return left > right ? 1 : -1;
     const double left_error = error_of_product(u.x, v.y, left);
     const double right_error = error_of_product(u.y, v.x, right);
