@@ -73,5 +73,5 @@ TEST_CASE("a concave polygon with too many corners is refused") {
   std::string text = "v 0 0 0\nv 1 0.5 0\nv 2 0 0\nv 1 9 0\n";
   text += "f";
   for (std::size_t i = 0; i < kMaxConcaveCorners; ++i) text += " 1 2 3 4";
-  CHECK(error_of_obj(text) == "f: a face that is not convex has 4096 corners; legal: at most 1024");
+  CHECK(error_of_obj(text) == "f: a face that is not convex has 131072 corners; legal: at most 32768");
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,record,obj,ply,gltf}/*.
+"""Write the seed corpora of the fuzz targets: make_seeds.py FOLDER -> FOLDER/{ptf,record,obj,ply,gltf,triangulate}/*.
 
 Each is the smallest file that reaches one branch of a reader. Standard library only.
 """
@@ -52,7 +52,7 @@ def obj():
             "numbers": "v 1e-3 -.5 +2.\nv 1e38 1 1 1 0 0 0\nv 0 0 0\nf 1 2 3\n", "bad": "v a b c\nf 0 1 9\n",
             "mark": "\ufeff" + v + "f 1 2 3\n", "utf16": b"\xff\xfev\0 \0",
             "comments": "# \\\n" + v + "f 1 2 3#4\nf 1/1/1 2 3 # \\\nusemtl a #b\nf 1 2 4\n",
-            "continued": "v 0 \\\n0 0\nv\\\r\n1 0 0\rv 0 1 0\nvn 1 \\ \n0 0\nf 1 2\\\n3 \\\nf 1 2 3\\",
+            "continued": "v 0 \\\n0 0\nv\\\r\n1 0 0\rv 0 1 0\nvn 1 \\ \n0 0\nf 1 2\\\n3 \\\n\nf 1 2 3\\",
             "not_finite": v + "v nan -inf 1.#QNAN\nv 1e400 -1e-400 1.#INF00\nf 1 2 5\nf 1 2\nf\nfo 1 2 3\n",
             "left_out": v + "curv 0 1 1 2\nsurf 0 1 0 1 1\nbzp 1\nnonsense\n\v\ff 1 2 3\ncall a.obj\n"}
 
@@ -233,9 +233,20 @@ def gltf_features():
     return {name + ".glb": content for name, content in out.items()}
 
 
+def triangulate():
+    keyhole = [(0, 0), (9, 0), (9, 9), (0, 9), (0, 0), (3, 3), (3, 6), (6, 6), (6, 3), (3, 3)]
+    whisker = [(0, 0), (4, 0), (4, 2), (7, 2), (4, 2), (4, 4), (0, 4)]
+    bridge = [(0, 0), (2, 0), (2, 2), (4, 4), (6, 2), (8, 2), (8, 0), (9, 3), (6, 2), (4, 4), (2, 2), (0, 2)]
+    lattice = {"keyhole": keyhole, "whisker": whisker, "bridge": bridge, "crossing": [(0, 0), (9, 9), (9, 0), (0, 8)]}
+    seeds = {name: bytes([0]) + bytes(sum(points, ())) for name, points in lattice.items()}
+    seeds["doubles"] = b"d" + b"".join(struct.pack("<3d", *p) for p in CONCAVE)
+    return seeds
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
-    for kind, make in (("ptf", ptf), ("record", record), ("obj", obj), ("ply", ply), ("gltf", gltf)):
+    for kind, make in (("ptf", ptf), ("record", record), ("obj", obj), ("ply", ply), ("gltf", gltf),
+                       ("triangulate", triangulate)):
         (folder / kind).mkdir(parents=True, exist_ok=True)
         for name, content in make().items():
             (folder / kind / name).write_bytes(content.encode() if isinstance(content, str) else content)

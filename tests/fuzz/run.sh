@@ -3,12 +3,12 @@
 # One summary line a target; exit status 1 when any of them found something (its input is kept beside the corpus).
 set -eu
 if [ $# -lt 1 ]; then
-  echo "usage: $0 SECONDS [ptf|run|record|obj|ply|gltf]..." >&2
+  echo "usage: $0 SECONDS [ptf|run|record|obj|ply|gltf|triangulate]..." >&2
   exit 2
 fi
 seconds=$1
 shift
-[ $# -gt 0 ] || set -- ptf run record obj ply gltf
+[ $# -gt 0 ] || set -- ptf run record obj ply gltf triangulate
 cd "$(dirname "$0")/../.."
 build=${HALFSPACE_FUZZ_BUILD:-build/fuzz}
 work=$build/corpus

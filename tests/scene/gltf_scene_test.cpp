@@ -246,5 +246,5 @@ TEST_CASE("glTF cameras: names, numbers and what makes no picture") {
         "f: camera \"camera 0\": an axis is (0, 0, 0); legal: finite numbers, not all 0");
   CHECK(at({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1}}}) ==
         "f: camera \"camera 0\": its y and z axis are parallel; legal: two directions");
-  CHECK(at({{"translation", {1e308, 0, 0}}, {"scale", {1, 1, 1}}}).find("clip space") != std::string::npos);
+  CHECK(at({{"translation", {1e308, 0, 4}}}).find("clip space") != std::string::npos);
 }

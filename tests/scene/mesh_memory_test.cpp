@@ -89,4 +89,54 @@ TEST_CASE("PLY: memory is within its multiple of the file's size") {
                         {"\3\1\2", 3}),
                parse_ply) < kMostMemory);
 }
+
+TEST_CASE("glTF: memory is within its multiple of the file's size") {
+  const auto of_text = [](const std::string& file) {
+    return memory(file, [](std::span<const std::byte> bytes, std::string_view name) {
+      return parse_gltf(bytes, name, "/nonexistent");
+    });
+  };
+  /// So many bytes, of the item again and again.
+  const auto items = [](const std::string& item, std::size_t size = kFileBytes) {
+    std::string out = item;
+    while (out.size() < size) out += ',' + item;
+    return out;
+  };
+  constexpr std::size_t kMostObjects = 6'000'000;  // bytes, within the limit of values
+  const std::string cube = cube_gltf().dump();
+  const auto with = [&](const std::string& key, const std::string& value) {
+    return cube.substr(0, cube.size() - 1) + ",\"" + key + "\":[" + value + "]}";
+  };
+  CHECK(of_text(with("extras", items("{}", kMostObjects))) < kMostMemory);
+  CHECK(of_text(with("extras", items("\"\""))) < kMostMemory);
+  CHECK(of_text(with("extras", items("{\"\":0}"))) < kMostMemory);
+  CHECK(of_text(with("extras", items("0"))) < kMostMemory);
+  std::string nodes = cube;
+  nodes.insert(nodes.find("{\"mesh\":0}") + 10, "," + items("{}", kMostObjects));
+  CHECK(of_text(nodes) < kMostMemory);
+  CHECK(of_text(with("skins", "{\"joints\":[" + items("0") + "]}")) < kMostMemory);
+  std::string morphed = cube;
+  morphed.insert(morphed.find("\"indices\":1"), "\"targets\":[" + items("{}", kMostObjects) + "],");
+  CHECK(of_text(morphed) < kMostMemory);
+
+  nlohmann::json json = cube_gltf();
+  // Three bytes a position, one an index: a strip through all of them.
+  std::string data;
+  while (data.size() < kFileBytes / 2) data += std::string("\0\0\0\1\0\0\0\1\0", 9);
+  const std::size_t positions = data.size();
+  while (data.size() < kFileBytes) data += static_cast<char>(data.size() % 200);
+  json["buffers"][0] = {{"byteLength", data.size()}};
+  json["bufferViews"] = {{{"buffer", 0}, {"byteLength", positions}},
+                         {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", data.size() - positions}}};
+  json["accessors"] = {
+      {{"bufferView", 0}, {"componentType", 5121}, {"count", positions / 3}, {"type", "VEC3"}},
+      {{"bufferView", 1}, {"componentType", 5121}, {"count", data.size() - positions}, {"type", "SCALAR"}}};
+  json["meshes"][0]["primitives"][0]["mode"] = 5;
+  CHECK(of_text(glb(json.dump(), data)) < kMostMemory);
+  json["meshes"][0]["primitives"][0].erase("indices");
+  json["accessors"][0]["count"] = data.size() / 3;
+  json["bufferViews"][0]["byteLength"] = data.size();
+  CHECK(of_text(glb(json.dump(), data)) < kMostMemory);
+}
+
 #endif

@@ -6,47 +6,14 @@
 #include <cstddef>
 #include <utility>
 
+#include "halfspace/numerics/exact_sum.hpp"
+
 namespace halfspace {
 namespace {
 
 std::int64_t floor_divide(std::int64_t value, std::int64_t by) {  // by > 0
   return value >= 0 ? value / by : -((-value + by - 1) / by);
 }
-
-/// Numbers whose sum is exact, smallest first, none of which overlaps another: J. Shewchuk, "Adaptive
-/// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
-class ExactSum {
- public:
-  void add(double term) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      double other = part_[i];
-      if (std::abs(term) < std::abs(other)) {
-        std::swap(term, other);
-      }
-      const double sum = term + other;
-      const double rest = other - (sum - term);
-      if (rest != 0) {
-        part_[kept++] = rest;
-      }
-      term = sum;
-    }
-    part_[kept++] = term;
-    count_ = kept;
-  }
-
-  [[nodiscard]] double rounded() const {
-    double sum = 0;
-    for (std::size_t i = count_; i-- > 0;) {
-      sum += part_[i];
-    }
-    return sum;
-  }
-
- private:
-  std::array<double, 12> part_{};
-  std::size_t count_ = 0;
-};
 
 }  // namespace
 
@@ -120,7 +87,7 @@ double DepthPlaneRows::rough_depth(std::int32_t x, std::int32_t y) const {
 
 double DepthPlaneRows::depth(std::int32_t x, std::int32_t y) const {
   // Halves of 26 or 27 bits, whose products are doubles.
-  ExactSum sum;
+  ExactSum<12> sum;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint64_t upper = std::bit_cast<std::uint64_t>(z_[i]) & ~((std::uint64_t{1} << 27) - 1);
     const double z_high = std::bit_cast<double>(upper);

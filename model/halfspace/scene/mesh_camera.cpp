@@ -9,7 +9,6 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
-#include <limits>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/quote.hpp"
@@ -73,8 +72,8 @@ void check_mesh_camera(const MeshCamera& camera, std::string_view name) {
     check(*camera.far > camera.near, "zfar", *camera.far, fmt::format("above znear, {}", camera.near));
   for (int column = 1; column < 4; ++column) {
     const glm::dvec3 axis(camera.world[column]);
-    if (!(glm::length(axis) <= std::numeric_limits<double>::max()) ||
-        (column < 3 && !(glm::length(axis) > 0))) {
+    const bool is_finite = std::isfinite(axis.x) && std::isfinite(axis.y) && std::isfinite(axis.z);
+    if (!is_finite || (column < 3 && axis == glm::dvec3(0))) {
       throw InputError(fmt::format("{}: camera {}: {} is {}; legal: finite numbers{}", name,
                                    quote(camera.name), column == 3 ? "its place" : "an axis",
                                    fmt::format("({}, {}, {})", axis.x, axis.y, axis.z),

@@ -58,8 +58,8 @@ class SceneReader {
       instances.emplace(document_, source_.buffers, *instancing);
       source_.add_bare(instances->bare(), 1);
     }
-    std::size_t number = 0;
-    for (const Object& primitive : mesh.objects("primitives")) {
+    for (std::size_t number = 0; number < mesh.count("primitives"); ++number) {
+      const Object primitive = mesh.item("primitives", number);
       const auto drawn = read_primitive(source_, primitive, instances ? instances->count() : 1);
       if (drawn) {
         const Morph morph(document_, source_.buffers, primitive, weights, drawn->positions.count());
@@ -73,7 +73,7 @@ class SceneReader {
           add_placed(*drawn, morph, nodes_.world(node), instances);
         }
       }
-      source_.mesh.end_part(part_name(mesh, index, primitive, number++));
+      source_.mesh.end_part(part_name(mesh, index, primitive, number));
     }
   }
 
@@ -89,17 +89,15 @@ class SceneReader {
   }
 
   void add_skinned(const Primitive& primitive, const Morph& morph, std::size_t skin) {
-    auto joints = joints_.find(skin);
-    if (joints == joints_.end()) {
-      joints =
-          joints_
-              .emplace(skin, joint_matrices(document_, source_.buffers, nodes_, document_.get(kSkins, skin)))
-              .first;
-    }
+    const auto found = skins_.find(skin);
+    Skin& joints =
+        found != skins_.end()
+            ? found->second
+            : skins_.try_emplace(skin, source_.document, source_.buffers, nodes_, skin).first->second;
     check_room(primitive, 1);
     add_copy(primitive, [&](std::uint32_t vertex) {
       const glm::dvec3 position = primitive.positions.vec3(vertex) + morph.displacement(vertex);
-      return skinned(document_, joints->second, primitive.influences, vertex, position);
+      return joints.place(primitive.influences, vertex, position);
     });
   }
 
@@ -139,7 +137,7 @@ class SceneReader {
   Source source_;
   Poses poses_;
   Nodes nodes_;
-  std::unordered_map<std::size_t, std::vector<glm::dmat4>> joints_;  // by skin
+  std::unordered_map<std::size_t, Skin> skins_;
 };
 
 }  // namespace

@@ -170,9 +170,24 @@ class ObjParser {
   /// Moves behind the statement's last line. Comments are not continued: they may end in the path of a
   /// folder.
   void to_next_line() {
+    if (skip_plain_line()) return;
     while (to_word()) take_word();
     at_ = find_any(at_, end_, kLineEnd);
     if (at_ != end_) at_ = next_line(at_);
+  }
+
+  /// As to_next_line(), where the line ends in LF, or CR LF, not far from here, and in no \. Most lines do,
+  /// and the C library finds characters many at a time.
+  bool skip_plain_line() {
+    constexpr std::size_t kFar = 256;  // else lines that end in CR would be searched to the end of the file
+    const std::string_view near = rest(at_).substr(0, kFar);
+    const std::size_t size = near.find('\n');
+    if (size == std::string_view::npos) return false;
+    std::string_view line = near.substr(0, size);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find('\r') != std::string_view::npos || line.find('\\') != std::string_view::npos) return false;
+    at_ += size + 1;
+    return true;
   }
 
   void parse_statement() {
@@ -225,8 +240,10 @@ class ObjParser {
     std::int32_t number = 0;
     const auto [stop, error] = std::from_chars(*at_ == '+' ? at_ + 1 : at_, end_, number);
     int slashes = 0;
-    for (at_ = stop; !is_number_end(at_) && (slashes > 0 || *at_ == '/'); ++at_) {
+    at_ = stop;
+    while (!is_number_end(at_) && (slashes > 0 || *at_ == '/')) {
       slashes += static_cast<int>(*at_ == '/');
+      at_ = find_any(at_ + 1, end_, kBlank | kLineEnd | kBackslash | kHash | kSlash);
     }
     if (error != std::errc() || number == 0 || slashes > 2 || !is_number_end(at_)) {
       at_ = first;

@@ -10,7 +10,7 @@
 namespace halfspace {
 
 /// What a character is to readers: a set of these.
-enum Character : std::uint8_t { kBlank = 1, kLineEnd = 2, kBackslash = 4, kHash = 8 };
+enum Character : std::uint8_t { kBlank = 1, kLineEnd = 2, kBackslash = 4, kHash = 8, kSlash = 16 };
 
 inline constexpr std::array<std::uint8_t, 256> kCharacters = [] {
   std::array<std::uint8_t, 256> out{};
@@ -18,6 +18,7 @@ inline constexpr std::array<std::uint8_t, 256> kCharacters = [] {
   for (const unsigned char c : {'\n', '\r'}) out[c] = kLineEnd;
   out['\\'] = kBackslash;
   out['#'] = kHash;
+  out['/'] = kSlash;
   return out;
 }();
 

@@ -2,71 +2,85 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <utility>
 
+#include "halfspace/numerics/exact_sum.hpp"
+#include "halfspace/numerics/orientation.hpp"
+#include "halfspace/scene/ear_clipping.hpp"
+
 namespace halfspace {
 namespace {
 
-/// Twice the signed area of a, b, c.
-double cross(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
-  return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+/// The polygon's corners, scaled by a power of two so that products and their sums are exact; empty when a
+/// coordinate is not finite.
+std::vector<glm::dvec3> scaled_corners(std::span<const std::uint32_t> polygon,
+                                       std::span<const glm::dvec3> positions) {
+  constexpr int kGreatestLog2 = kGreatestFactorLog2 - 50;  // the normal is a sum of many products
+  double greatest = 0;
+  for (const std::uint32_t corner : polygon) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double size = std::abs(positions[corner][axis]);
+      if (!std::isfinite(size)) return {};
+      greatest = std::max(greatest, size);
+    }
+  }
+  int log2 = 0;
+  std::frexp(greatest, &log2);
+  const auto scaled = [shift = kGreatestLog2 - log2](double x) { return std::ldexp(x, shift); };
+  std::vector<glm::dvec3> corners;
+  corners.reserve(polygon.size());
+  for (const std::uint32_t corner : polygon) {
+    const glm::dvec3& p = positions[corner];
+    corners.emplace_back(scaled(p.x), scaled(p.y), scaled(p.z));
+  }
+  return corners;
 }
 
-/// The polygon seen along its normal, so that it winds counter-clockwise; empty when it has no normal.
-std::vector<glm::dvec2> flatten(std::span<const std::uint32_t> polygon,
-                                std::span<const glm::dvec3> positions) {
-  const glm::dvec3 origin = positions[polygon[0]];
+/// The axis nearest to the polygon's normal.
+int axis_of_normal(std::span<const glm::dvec3> corners) {
   glm::dvec3 normal{0};  // Newell's: exact for a plane polygon, an average otherwise
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec3 a = positions[polygon[i]] - origin;
-    const glm::dvec3 b = positions[polygon[(i + 1) % polygon.size()]] - origin;
-    normal += glm::cross(a, b);
+  glm::dvec3 extent{0};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3 cross =
+        glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
+    normal += cross;
+    extent += glm::abs(cross);
   }
-  const glm::dvec3 size = glm::abs(normal);
+  glm::dvec3 size = glm::abs(normal);
+  // Where the areas cancel out, what is left is rounding; in a plane the extent points the same way.
+  if (glm::length(normal) <= 0x1p-30 * glm::length(extent)) size = extent;
   const double largest = std::max(size.x, std::max(size.y, size.z));
-  if (!(largest > 0) || !std::isfinite(largest)) return {};
-  // Drop the axis nearest to the normal; swap the others where that would mirror the polygon.
-  int u = size.x == largest ? 1 : size.y == largest ? 2 : 0;
-  int v = (u + 1) % 3;
-  if (normal[(u + 2) % 3] < 0) std::swap(u, v);
+  return size.x == largest ? 0 : size.y == largest ? 1 : 2;
+}
+
+/// The polygon seen along an axis, so that it winds counter-clockwise: no coordinate is rounded.
+std::vector<glm::dvec2> flatten(std::span<const glm::dvec3> corners, int axis) {
   std::vector<glm::dvec2> points;
-  points.reserve(polygon.size());
-  for (const std::uint32_t corner : polygon) {
-    const glm::dvec3 p = positions[corner] - origin;
-    points.emplace_back(p[u], p[v]);
+  points.reserve(corners.size());
+  for (const glm::dvec3& p : corners) points.emplace_back(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+  ExactSum<kMostParts> area;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dvec2 a = points[i];
+    const glm::dvec2 b = points[(i + 1) % points.size()];
+    area.add_product(a.x, b.y);
+    area.add_product(-a.y, b.x);
+  }
+  if (area.sign() < 0) {
+    for (glm::dvec2& p : points) std::swap(p.x, p.y);
   }
   return points;
 }
 
-/// No reflex corner, and not wound more than once around.
+/// No reflex corner, and no triangle of the fan around the first corner winds the other way.
 bool is_convex(std::span<const glm::dvec2> points) {
   const std::size_t n = points.size();
   for (std::size_t i = 0; i < n; ++i) {
-    if (cross(points[i], points[(i + 1) % n], points[(i + 2) % n]) < 0) return false;
+    if (orientation(points[i], points[(i + 1) % n], points[(i + 2) % n]) < 0) return false;
   }
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    if (cross(points[0], points[i], points[i + 1]) < 0) return false;
-  }
-  return true;
-}
-
-/// The corner `at` of the ring cuts off a triangle that holds no other corner.
-bool is_ear(std::span<const glm::dvec2> points, std::span<const std::uint32_t> ring, std::size_t at) {
-  const std::size_t n = ring.size();
-  const std::size_t before = (at + n - 1) % n;
-  const std::size_t after = (at + 1) % n;
-  const glm::dvec2 a = points[ring[before]];
-  const glm::dvec2 b = points[ring[at]];
-  const glm::dvec2 c = points[ring[after]];
-  if (!(cross(a, b, c) > 0)) return false;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i == before || i == at || i == after) continue;
-    const glm::dvec2 p = points[ring[i]];
-    if (p == a || p == b || p == c) continue;
-    if (cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0) return false;
+    if (orientation(points[0], points[i], points[i + 1]) < 0) return false;
   }
   return true;
 }
@@ -82,29 +96,12 @@ bool triangulate(std::span<const std::uint32_t> polygon, std::span<const glm::dv
     return true;
   };
   if (polygon.size() == 3) return fan();
-  const std::vector<glm::dvec2> points = flatten(polygon, positions);
-  if (points.empty() || is_convex(points)) return fan();
+  const std::vector<glm::dvec3> corners = scaled_corners(polygon, positions);
+  if (corners.empty()) return fan();
+  const std::vector<glm::dvec2> points = flatten(corners, axis_of_normal(corners));
+  if (is_convex(points)) return fan();
   if (polygon.size() > kMaxConcaveCorners) return false;
-
-  std::vector<std::uint32_t> ring(polygon.size());
-  for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
-  std::size_t at = 0;
-  std::size_t tried = 0;
-  while (ring.size() > 3) {
-    const std::size_t n = ring.size();
-    // A polygon that crosses itself may have no ear left: then any corner goes.
-    if (tried < n && !is_ear(points, ring, at)) {
-      ++tried;
-      at = (at + 1) % n;
-      continue;
-    }
-    triangles.insert(triangles.end(),
-                     {polygon[ring[(at + n - 1) % n]], polygon[ring[at]], polygon[ring[(at + 1) % n]]});
-    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
-    at %= ring.size();
-    tried = 0;
-  }
-  triangles.insert(triangles.end(), {polygon[ring[0]], polygon[ring[1]], polygon[ring[2]]});
+  for (const std::uint32_t corner : clip_ears(points)) triangles.push_back(polygon[corner]);
   return true;
 }
 

@@ -45,8 +45,9 @@ class AnimationReader {
  private:
   std::vector<Channel> read_channels(const Object& animation) {
     std::vector<Channel> channels;
-    const std::vector<Object> samplers = animation.objects("samplers");
-    for (const Object& channel : animation.objects("channels")) {
+    const std::size_t samplers = animation.count("samplers");
+    for (std::size_t i = 0; i < animation.count("channels"); ++i) {
+      const Object channel = animation.item("channels", i);
       const Object target = channel.object("target");
       const std::string path = target.text_or("path", "");
       if (path == "pointer") {
@@ -59,10 +60,10 @@ class AnimationReader {
         target.fail("path is {}; legal: \"translation\", \"rotation\", \"scale\", \"weights\"", quote(path));
       }
       const std::uint64_t sampler = channel.number("sampler");
-      if (sampler >= samplers.size()) {
-        channel.fail("sampler is {}; legal: 0 or more and below {}", sampler, samplers.size());
+      if (sampler >= samplers) {
+        channel.fail("sampler is {}; legal: 0 or more and below {}", sampler, samplers);
       }
-      channels.push_back({*node, path, samplers[static_cast<std::size_t>(sampler)]});
+      channels.push_back({*node, path, animation.item("samplers", static_cast<std::size_t>(sampler))});
     }
     return channels;
   }

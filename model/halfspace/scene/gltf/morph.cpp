@@ -3,8 +3,7 @@
 namespace halfspace::gltf {
 
 std::size_t count_targets(const Object& mesh) {
-  const std::vector<Object> primitives = mesh.objects("primitives");
-  return primitives.empty() ? 0 : primitives.front().objects("targets").size();
+  return mesh.count("primitives") == 0 ? 0 : mesh.item("primitives", 0).count("targets");
 }
 
 std::vector<double> morph_weights(const Object& node, const Object& mesh, const Pose& pose) {
@@ -17,16 +16,17 @@ std::vector<double> morph_weights(const Object& node, const Object& mesh, const 
 
 Morph::Morph(const Document& document, Buffers& buffers, const Object& primitive,
              const std::vector<double>& weights, std::size_t vertices) {
-  const std::vector<Object> targets = primitive.objects("targets");
-  if (targets.size() != weights.size()) {
-    primitive.fail("targets has {} objects; legal: {}, as the mesh's first primitive", targets.size(),
+  const std::size_t targets = primitive.count("targets");
+  if (targets != weights.size()) {
+    primitive.fail("targets has {} objects; legal: {}, as the mesh's first primitive", targets,
                    weights.size());
   }
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (weights[i] == 0 || !targets[i].has("POSITION")) continue;
-    Accessor positions(document, buffers, targets[i].number("POSITION"), kPositionUse);
+  for (std::size_t i = 0; i < targets; ++i) {
+    const Object target = primitive.item("targets", i);
+    if (weights[i] == 0 || !target.has("POSITION")) continue;
+    Accessor positions(document, buffers, target.number("POSITION"), kPositionUse);
     if (positions.count() != vertices) {
-      targets[i].fail("POSITION has {} elements; legal: {}, as the primitive's", positions.count(), vertices);
+      target.fail("POSITION has {} elements; legal: {}, as the primitive's", positions.count(), vertices);
     }
     targets_.push_back({weights[i], positions});
   }

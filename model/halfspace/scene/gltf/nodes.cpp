@@ -4,9 +4,16 @@
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <utility>
 
 namespace halfspace::gltf {
+
+namespace {
+
+[[noreturn]] void fail_twice(const Document& document, std::size_t node) {
+  document.fail("node {} is reached twice; legal: each node has one parent and is in no cycle", node);
+}
+
+}  // namespace
 
 glm::dmat4 compose(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale) {
   // Of unit length by glTF 2.0, 3.5.3, but files round it.
@@ -17,35 +24,64 @@ glm::dmat4 compose(glm::dvec3 translation, glm::dvec4 rotation, glm::dvec3 scale
   return transform;
 }
 
-Nodes::Nodes(const Document& document, const Poses& poses)
-    : document_(document), world_(document.size(kNodes)) {
-  const auto fail_twice = [&](std::size_t node) {
-    document.fail("node {} is reached twice; legal: each node has one parent and is in no cycle", node);
+Nodes::Nodes(const Document& document, const Poses& poses) : document_(document) {
+  std::vector<bool> is_unreached = find_roots();
+  const std::vector<bool> is_placed = placed_nodes();
+  struct Visit {
+    std::size_t node;
+    std::size_t depth;
   };
-  std::vector<bool> is_child(world_.size());
-  for (std::size_t i = 0; i < world_.size(); ++i) {
-    for (const std::size_t child : document.indices(kNodes, document.get(kNodes, i), "children")) {
-      if (is_child[child]) fail_twice(child);
+  std::vector<glm::dmat4> path;  // worlds of the ancestors
+  std::vector<Visit> open;
+  for (const std::size_t root : roots_) {
+    open.push_back({root, 0});
+    while (!open.empty()) {
+      const auto [node, depth] = open.back();
+      open.pop_back();
+      is_unreached[node] = false;
+      path.resize(depth);
+      const glm::dmat4 world = (depth == 0 ? glm::dmat4(1) : path.back()) * local(node, poses);
+      path.push_back(world);
+      if (is_placed[node]) world_.emplace(node, world);
+      for (const std::size_t child : document.indices(kNodes, document.get(kNodes, node), "children")) {
+        open.push_back({child, depth + 1});
+      }
+    }
+  }
+  const auto unreached = std::find(is_unreached.begin(), is_unreached.end(), true);
+  if (unreached != is_unreached.end()) {
+    fail_twice(document, static_cast<std::size_t>(unreached - is_unreached.begin()));
+  }
+}
+
+/// Finds the nodes that are no node's child; the others are marked.
+std::vector<bool> Nodes::find_roots() {
+  std::vector<bool> is_child(document_.size(kNodes));
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
+    for (const std::size_t child : document_.indices(kNodes, document_.get(kNodes, i), "children")) {
+      if (is_child[child]) fail_twice(document_, child);
       is_child[child] = true;
     }
   }
-  for (std::size_t i = 0; i < world_.size(); ++i) {
+  for (std::size_t i = 0; i < is_child.size(); ++i) {
     if (!is_child[i]) roots_.push_back(i);
   }
-  std::vector<std::pair<std::size_t, const glm::dmat4*>> open;  // with the parent's transform
-  const glm::dmat4 identity(1);
-  for (const std::size_t root : roots_) open.emplace_back(root, &identity);
-  while (!open.empty()) {
-    const auto [node, parent] = open.back();
-    open.pop_back();
-    is_child[node] = false;  // it is reached
-    world_[node] = *parent * local(node, poses);
-    for (const std::size_t child : document.indices(kNodes, document.get(kNodes, node), "children")) {
-      open.emplace_back(child, &world_[node]);
+  return is_child;
+}
+
+/// The nodes whose place in the world counts.
+std::vector<bool> Nodes::placed_nodes() const {
+  std::vector<bool> is_placed(document_.size(kNodes));
+  for (std::size_t i = 0; i < is_placed.size(); ++i) {
+    const Object node = document_.get(kNodes, i);
+    is_placed[i] = node.has("mesh") || node.has("camera");
+  }
+  for (std::size_t i = 0; i < document_.size(kSkins); ++i) {
+    for (const std::size_t joint : document_.indices(kNodes, document_.get(kSkins, i), "joints")) {
+      is_placed[joint] = true;
     }
   }
-  const auto unreached = std::find(is_child.begin(), is_child.end(), true);
-  if (unreached != is_child.end()) fail_twice(static_cast<std::size_t>(unreached - is_child.begin()));
+  return is_placed;
 }
 
 glm::dmat4 Nodes::local(std::size_t node, const Poses& poses) const {
@@ -79,13 +115,11 @@ std::vector<std::size_t> Nodes::shown(MeshBuilder& mesh) const {
   std::vector<std::size_t> open = scene_roots();
   std::reverse(open.begin(), open.end());
   std::vector<std::size_t> shown;
-  std::vector<bool> seen(world_.size());
+  std::vector<bool> seen(document_.size(kNodes));
   while (!open.empty()) {
     const std::size_t node = open.back();
     open.pop_back();
-    if (seen[node]) {
-      document_.fail("node {} is reached twice; legal: each node has one parent and is in no cycle", node);
-    }
+    if (seen[node]) fail_twice(document_, node);
     seen[node] = true;
     const Object object = document_.get(kNodes, node);
     const auto visibility = object.extension("KHR_node_visibility");

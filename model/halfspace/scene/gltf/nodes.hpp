@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <unordered_map>
 #include <vector>
 
 #include "halfspace/scene/gltf/animation.hpp"
@@ -21,8 +22,8 @@ class Nodes {
   /// Throws InputError unless the nodes are trees and their transforms sound.
   Nodes(const Document& document, const Poses& poses);
 
-  /// From the node's space to the world.
-  [[nodiscard]] const glm::dmat4& world(std::size_t node) const { return world_[node]; }
+  /// From the node's space to the world, for a node that draws, has a camera, or is a joint.
+  [[nodiscard]] const glm::dmat4& world(std::size_t node) const { return world_.at(node); }
 
   /// The nodes to draw, parents before children: those of the default scene, else of the first, else all.
   /// Says of the mesh which nodes are hidden (KHR_node_visibility).
@@ -31,10 +32,13 @@ class Nodes {
  private:
   [[nodiscard]] glm::dmat4 local(std::size_t node, const Poses& poses) const;
   [[nodiscard]] std::vector<std::size_t> scene_roots() const;
+  [[nodiscard]] std::vector<bool> find_roots();
+  [[nodiscard]] std::vector<bool> placed_nodes() const;
 
   const Document& document_;
   std::vector<std::size_t> roots_;
-  std::vector<glm::dmat4> world_;
+  std::unordered_map<std::size_t, glm::dmat4>
+      world_;  // those of which it is asked: others have no need of 128 bytes
 };
 
 }  // namespace halfspace::gltf

@@ -151,15 +151,15 @@ Object Object::object(const char* key) const {
   return *object;
 }
 
-std::vector<Object> Object::objects(const char* key) const {
-  std::vector<Object> objects;
-  if (const json* const list = find_list(key)) {
-    for (const json& value : *list) {
-      if (!value.is_object()) fail_type(key, value, "a list of objects");
-      objects.emplace_back(value, file_, kind_, number_, key);
-    }
-  }
-  return objects;
+std::size_t Object::count(const char* key) const {
+  const json* const list = find_list(key);
+  return list == nullptr ? 0 : list->size();
+}
+
+Object Object::item(const char* key, std::size_t index) const {
+  const json& value = (*find_list(key))[index];
+  if (!value.is_object()) fail_type(key, value, "a list of objects");
+  return {value, file_, kind_, number_, key};
 }
 
 std::optional<Object> Object::extension(const char* name) const {

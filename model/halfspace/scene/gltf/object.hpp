@@ -48,8 +48,10 @@ class Object {
 
   [[nodiscard]] std::optional<Object> find_object(const char* key) const;
   [[nodiscard]] Object object(const char* key) const;
-  /// The objects of a list; none when there is no list.
-  [[nodiscard]] std::vector<Object> objects(const char* key) const;
+  /// How many values a list has; 0 when there is no list.
+  [[nodiscard]] std::size_t count(const char* key) const;
+  /// An object of a list, below count().
+  [[nodiscard]] Object item(const char* key, std::size_t index) const;
   [[nodiscard]] std::optional<Object> extension(const char* name) const;
 
   /// What errors call it.

@@ -22,6 +22,7 @@ std::vector<std::uint32_t> list_triangles(std::vector<std::uint32_t> order, Topo
   order.resize(order.size() - rest);
   if (topology == Topology::kTriangles) return order;
   std::vector<std::uint32_t> out;
+  out.reserve(order.empty() ? 0 : 3 * (order.size() - 2));
   for (std::size_t i = 0; i + 2 < order.size(); ++i) {
     const std::size_t odd = i % 2;
     if (topology == Topology::kStrip) {

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "../scene/fixture.hpp"
+#include "fixture.hpp"
 #include "halfspace/scene/mesh.hpp"
 
 using namespace halfspace;
