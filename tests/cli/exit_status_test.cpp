@@ -8,8 +8,6 @@ using namespace halfspace::testing;
 
 namespace {
 
-const std::string kCube = scene("vkcube.ptf.xz");
-
 /// One line of error, and this status.
 void check_status(const Place& place, int status, const std::string& arguments) {
   CAPTURE(arguments);

@@ -54,6 +54,8 @@ class Place {
 
 inline std::string scene(const char* name) { return std::string(HALFSPACE_SOURCE) + "/scenes/" + name; }
 
+inline const std::string kCube = scene("vkcube.ptf.xz");
+
 inline std::set<std::string> entries(const fs::path& folder) {
   std::set<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

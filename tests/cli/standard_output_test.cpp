@@ -8,8 +8,6 @@ using namespace halfspace::testing;
 
 namespace {
 
-const std::string kCube = scene("vkcube.ptf.xz");
-
 /// The program with its output sent elsewhere, by the shell.
 Outcome run_to(const Place& place, const std::string& arguments, const std::string& redirection) {
   const std::string command = std::string(HALFSPACE_PROGRAM) + " " + arguments + " 2>" +

@@ -10,8 +10,6 @@ using namespace halfspace::testing;
 
 namespace {
 
-const std::string kCube = scene("vkcube.ptf.xz");
-
 void check_refused(const Place& place, const std::string& arguments,
                    std::initializer_list<const char*> parts) {
   CAPTURE(arguments);
