@@ -128,7 +128,7 @@ TEST_CASE("run: targets without depth have pictures of all but depth") {
   expected.insert("depth0.png");
   const std::string run = "run " + file.string() + " --out ";
   for (const char* options : {" --core fast", " --core readable", " --fidelity systemc"}) {
-    const fs::path out = place.path / "out";
+    const fs::path out = place.path / "result";
     REQUIRE(place.run(run + out.string() + options).status == 0);
     CHECK(entries(out) == expected);
     CHECK(read_stats(out)["files"].get<std::set<std::string>>() == expected);
