@@ -19,7 +19,7 @@ TEST_CASE("what a reader leaves out is said on stderr by every subcommand, and b
   for (const std::string& command : std::initializer_list<std::string>{
            "run --size 64x64 ", "run --reference exact --size 64x64 ", "info ", "ledger --size 64x64 ",
            "record --size 64x64 " + record, "bench stages --repeat 1 ", "bench hi-z ", "bench depth-traffic ",
-           "bench time --repeat 1 ", "bench sampled --repeat 1 --machines 2 ",
+           "bench time --repeat 1 ", "bench read --repeat 2 ", "bench sampled --repeat 1 --machines 2 ",
            "bench speed --repeat 1 --without functional_pixels,scalar_loop,llvmpipe "}) {
     CAPTURE(command);
     const Outcome outcome = place.run(command + odd);

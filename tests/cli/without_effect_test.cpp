@@ -29,7 +29,8 @@ TEST_CASE("the camera of a frame or of a synthetic frame is refused") {
   const std::string mesh = (place.path / "a.obj").string();
   const std::string record = " --out " + (place.path / "r").string();
   for (const std::string& input : {kCube, std::string("synthetic:one_triangle")}) {
-    for (const std::string camera : {"--size 64x64", "--eye 1,2,3", "--at 1,2,3", "--up 0,1,0", "--fov 60"}) {
+    for (const std::string camera :
+         {"--size 64x64", "--eye 1,2,3", "--at 1,2,3", "--up 0,1,0", "--fov 60", "--camera 0"}) {
       const std::string option = camera.substr(0, camera.find(' '));
       for (const std::string& command :
            {"run " + input, "info " + input, "ledger " + input, "record " + input + record,
@@ -70,6 +71,8 @@ TEST_CASE("options of a job that is not asked for are refused") {
   CHECK(place.run(timed + " --seed 3 --stall sink:1:2").status == 0);
   check_refused(place, "ledger " + kCube + " --threads 2", {"--threads", "--savings"});
   CHECK(place.run("ledger synthetic:one_triangle --threads 2 --savings").status == 0);
+  check_refused(place, "bench read " + kCube + " --side 9", {"--side", "MESH"});
+  check_refused(place, "bench read " + kCube + " --keep " + place.path.string(), {"--keep", "MESH"});
   check_refused(place, "ledger " + kCube + " --rtl-folder x", {"--rtl-folder", "functional", "legal", "rtl"});
   for (const char* option : {"--rtl-folder x", "--rtl-seed 1", "--wave x", "--rtl-every-cycle"}) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "halfspace/numerics/error.hpp"
 
@@ -41,9 +43,16 @@ TEST_CASE("config: no key takes a value outside its list, and the error says all
       if (key.legal == "0 to 1" && value == std::string("0")) {
         continue;  // a share of nothing
       }
+      std::string meant;
+      for (const auto& [capitals, name] : {std::pair{"TRUE", "true"}, std::pair{"Plane", "plane"}}) {
+        if (value == std::string(capitals) && key.legal.find(name) != std::string::npos) {
+          meant = std::string(" (did you mean '") + name + "'?)";
+        }
+      }
       Config config;
-      CHECK_THROWS_WITH(set_config(config, key.name, value),
-                        "configuration key '" + key.name + "' is '" + value + "'; legal: " + key.legal);
+      CHECK_THROWS_WITH(
+          set_config(config, key.name, value),
+          "configuration key '" + key.name + "' is '" + value + "'" + meant + "; legal: " + key.legal);
     }
   }
 }
@@ -75,12 +84,15 @@ TEST_CASE("config: a capacity of 0, a width of 0, a size that is no power of two
 }
 
 TEST_CASE("config: an unknown key is answered with those that exist") {
-  for (const char* setting :
-       {"tile_walker.tile_sise=8", "tile_size=8", "walker=8", "=8", "tile_walker.tile_size.x=8"}) {
-    const std::string error = error_of({setting});
-    CAPTURE(setting, error);
-    const std::string key = std::string(setting).substr(0, std::string(setting).find('='));
-    CHECK(error.rfind("unknown configuration key '" + key + "'; legal: ", 0) == 0);
+  const std::string meant = " (did you mean 'tile_walker.tile_size'?)";
+  for (const auto& [key, answer] : {std::pair<std::string, std::string>{"tile_walker.tile_sise", meant},
+                                    {"tile_walker.tile_size.x", meant},
+                                    {"tile_size", ""},
+                                    {"walker", ""},
+                                    {"", ""}}) {
+    const std::string error = error_of({(key + "=8").c_str()});
+    CAPTURE(key, error);
+    CHECK(error.starts_with("unknown configuration key '" + key + "'" + answer + "; legal: "));
     for (const ConfigKey& each : config_keys({})) {
       CHECK(error.find(each.name) != std::string::npos);
     }

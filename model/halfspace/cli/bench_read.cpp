@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "halfspace/cli/bench.hpp"
+#include "halfspace/cli/load_input.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/byte_source.hpp"
 #include "halfspace/scene/mesh.hpp"
@@ -52,7 +54,13 @@ void print_row(const std::filesystem::path& path, int repeat) {
   std::size_t triangles = 0;
   std::vector<double> times;
   for (int pass = 0; pass < repeat; ++pass) {
-    times.push_back(milliseconds([&] { triangles = read_mesh(path).indices.size() / 3; }));
+    std::vector<std::string> left_out;
+    times.push_back(milliseconds([&] {
+      Mesh mesh = read_mesh(path);
+      triangles = mesh.indices.size() / 3;
+      left_out = std::move(mesh.left_out);
+    }));
+    if (pass == 0) say_left_out(path, left_out);
   }
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
   const double peak = cost_of_fresh_run([&] { triangles += read_mesh(path).indices.size(); }).megabytes;
@@ -83,13 +91,17 @@ void bench_read(const ReadOptions& options) {
 void add_bench_read(CLI::App& bench) {
   auto options = std::make_shared<ReadOptions>();
   CLI::App* command = bench.add_subcommand("read", "how fast meshes are read, by format");
-  command->add_option("MESH", options->meshes, "meshes (OBJ, PLY, glTF); none: a grid in each format");
+  CLI::Option* const meshes =
+      command->add_option("MESH", options->meshes, "meshes (OBJ, PLY, glTF); none: a grid in each format");
   command->add_option("--side", options->side, "vertices of the grid on a side")
       ->check(CLI::Range(2, 4096))
       ->capture_default_str();
   command
       ->add_option("--keep", options->folder, "write the grid's files into this folder, and leave them there")
       ->check(CLI::ExistingDirectory);
+  for (const char* const of_grid : {"--side", "--keep"}) {
+    command->get_option(of_grid)->excludes(meshes);
+  }
   command->add_option("--repeat", options->repeat, "number of timed runs of each")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -10,13 +10,17 @@
 
 namespace halfspace {
 
-Frame load_input(const std::filesystem::path& path, const Camera& camera) {
-  Frame frame = load(path, camera);
-  if (!frame.left_out.empty()) {
+void say_left_out(const std::filesystem::path& path, const std::vector<std::string>& left_out) {
+  if (!left_out.empty()) {
     const std::string line =
-        fmt::format("halfspace: {}: left out: {}\n", display_name(path), fmt::join(frame.left_out, ", "));
+        fmt::format("halfspace: {}: left out: {}\n", display_name(path), fmt::join(left_out, ", "));
     std::fputs(line.c_str(), stderr);
   }
+}
+
+Frame load_input(const std::filesystem::path& path, const Camera& camera) {
+  Frame frame = load(path, camera);
+  say_left_out(path, frame.left_out);
   return frame;
 }
 

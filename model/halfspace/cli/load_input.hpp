@@ -2,13 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/frame.hpp"
 
 namespace halfspace {
 
-/// load(); a line on stderr says what of the file is not in the frame.
+/// A line on stderr of what of the file is not in its frame or mesh; none where nothing is left out.
+void say_left_out(const std::filesystem::path& path, const std::vector<std::string>& left_out);
+
+/// load(), which says what is left out.
 [[nodiscard]] Frame load_input(const std::filesystem::path& path, const Camera& camera = {});
 
 }  // namespace halfspace
