@@ -12,7 +12,7 @@ using halfspace::Flag;
 
 namespace {
 
-constexpr int kSide = 16;
+constexpr int kTargetSide = 16;
 
 /// A rectangle with corners on the grid of pixels, as two triangles.
 std::vector<glm::dvec3> rectangle(double left, double top, double right, double bottom) {
@@ -23,7 +23,7 @@ std::vector<glm::dvec3> rectangle(double left, double top, double right, double 
 /// Target 0 has depth. Of targets 1 to 3, which have none, 1 is only cleared; 2 takes a rectangle, a triangle
 /// below x + y = 10.5 and, behind them, another rectangle; 3 takes a rectangle.
 halfspace::Frame frame_of_bare_targets() {
-  FrameBuilder builder(kSide);
+  FrameBuilder builder(kTargetSide);
   halfspace::Target bare = builder.frame.targets[0];
   bare.depth_format = halfspace::DepthFormat::kNone;
   bare.depth_surface = halfspace::kNoSurface;
@@ -52,11 +52,11 @@ int on_target_3(int x, int y) { return in_rectangle(x, y, 1, 1, 3, 15); }
 template <class Count>
 bool counts_are(const fs::path& file, const Count& count) {
   const halfspace::NpyArray array = halfspace::read_npy(file);
-  bool same = array.descr == "'<u2'" && array.shape == std::vector<std::uint64_t>{kSide, kSide};
-  for (int y = 0; same && y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  bool same = array.descr == "'<u2'" && array.shape == std::vector<std::uint64_t>{kTargetSide, kTargetSide};
+  for (int y = 0; same && y < kTargetSide; ++y) {
+    for (int x = 0; x < kTargetSide; ++x) {
       std::uint16_t value = 0;
-      std::memcpy(&value, array.data.data() + 2 * (y * kSide + x), 2);
+      std::memcpy(&value, array.data.data() + 2 * (y * kTargetSide + x), 2);
       same = same && value == count(x, y);
     }
   }
@@ -104,7 +104,7 @@ TEST_CASE("run: the pixels of targets without depth are counted in every fidelit
     CHECK(surfaces[1]["surface"].is_null());
     CHECK(surfaces[1]["target"] == 2);
     CHECK(surfaces[1]["format"] == "none");
-    CHECK(surfaces[1]["width"] == kSide);
+    CHECK(surfaces[1]["width"] == kTargetSide);
     CHECK(surfaces[1]["counters"]["quad_generator"]["fragments"] == 7 * 9 + 55 + 11 * 2);
     CHECK(surfaces[1]["counters"]["early_z"]["tested"] == 0);
     CHECK(surfaces[2]["target"] == 3);
@@ -128,7 +128,7 @@ TEST_CASE("run: targets without depth have pictures of all but depth") {
   expected.insert("depth0.png");
   const std::string run = "run " + file.string() + " --out ";
   for (const char* options : {" --core fast", " --core readable", " --fidelity systemc"}) {
-    const fs::path out = place.path / "out";
+    const fs::path out = place.path / "result";
     REQUIRE(place.run(run + out.string() + options).status == 0);
     CHECK(entries(out) == expected);
     CHECK(read_stats(out)["files"].get<std::set<std::string>>() == expected);
