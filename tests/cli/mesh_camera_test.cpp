@@ -6,7 +6,7 @@
 
 using namespace halfspace::testing;
 
-TEST_CASE("--camera takes a camera of the file, and info lists them") {
+TEST_CASE("the program takes a camera of the file, and info lists them") {
   const Place place;
   halfspace::test::GltfSample sample = halfspace::test::quad_sample();
   sample.root["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1.5707963267948966,
