@@ -15,6 +15,7 @@
 #include "halfspace/reference/exact_depth.hpp"
 #include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/scene/validate.hpp"
+#include "halfspace/units/float_parts.hpp"
 #include "hard_frames.hpp"
 
 namespace halfspace::testing {
@@ -137,6 +138,21 @@ TEST_CASE("float32: slanted triangles of unrestricted depth ranges are within a 
       const mpq_class off = abs(reference::float_value(stored) - exact);
       REQUIRE(off <= largest * mpq_class(151, 100) / (1 << 30) + abs(exact) / (1 << 23));
     }
+  }
+}
+
+TEST_CASE("float32: a sum beyond all numbers keeps its sign") {
+  // 2^64 words of 2^(e - 63): 2^(e + 1).
+  const Int128 sum = (Int128{1} << 64) - 1;
+  for (const int exponent : {0, 100, 126, 127, 128, 129}) {
+    CAPTURE(exponent);
+    const std::int64_t above = code_order(code_of_word(sum, exponent));
+    const std::int64_t below = code_order(code_of_word(-sum, exponent));
+    CHECK(above == -below);
+    const double value = std::ldexp(1.0, exponent + 1);
+    CHECK((value > kLargestFloat
+               ? above >= 0x7F800000
+               : depth_of_code(DepthFormat::kFloat32, code_of_word(sum, exponent)) == value));
   }
 }
 

@@ -138,8 +138,8 @@ HWY_INLINE std::uint32_t wide_negative(WideVector v) {
 #endif
 }
 
-/// The float32 nearest to words, halves upwards, as bits in 64-bit lanes: float_of_word
-/// (units/float_parts.hpp). `rebias`: see float_rebias.
+/// The float32 nearest to words, halves upwards, as bits in 64-bit lanes: code_of_word, of sums that are not
+/// negative (units/float_parts.hpp). `rebias`: see float_rebias.
 HWY_INLINE WideVector float_codes(WideVector word, WideVector rebias) {
   const WideTag tag;
   // A double is exact: of 54 and more bits those that a float32 cannot see go.

@@ -37,7 +37,7 @@ inline constexpr int kVertexDepthBits = 31;
 /// are off by up to 22 units (docs/numerics.md), and must stay below 2^31. Depth 1 is less.
 inline constexpr std::int64_t kShortWordEnd = (std::int64_t{1} << kVertexDepthBits) - 64;
 
-/// Vertex depths are less than 2^kVertexDepthRange in magnitude: depth clamp lets them leave [0, 1].
+/// Vertex depths are below 2^kVertexDepthRange times the depth range (or 1): depth clamp allows that.
 inline constexpr int kVertexDepthRange = 15;
 
 /// Bits of a stored unorm code; 0 for float32 and none.

@@ -15,8 +15,8 @@ bool finite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-/// 2^kVertexDepthRange of the power of two at or above the depth range's larger end, which is 1 or more; but
-/// no more than a float32 holds twice.
+/// 2^kVertexDepthRange times the power of two at or above the larger end of the depth range, but not below 1;
+/// at most 2^127, the largest power of two that a float32 holds.
 double far_depth(const DepthRange& range) {
   const double largest = std::max({1.0, std::abs(range.least), std::abs(range.most)});
   const int above = std::ilogb(largest) + (std::exp2(std::ilogb(largest)) < largest ? 1 : 0);

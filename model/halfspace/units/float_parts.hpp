@@ -24,8 +24,8 @@ constexpr FloatParts float_parts(std::uint32_t bits) {
                     : FloatParts{fraction | 0x800000u, field - 150, negative};
 }
 
-/// The bits of the float32 nearest to m * 2^exponent, halves upwards. The value is less than 2^128 when it is
-/// rounded.
+/// The bits of the float32 nearest to m * 2^exponent, halves upwards; 0x7FFFFFFF at most, which is above all
+/// numbers.
 constexpr std::uint32_t float_bits(std::uint64_t m, int exponent) {
   if (m == 0) {
     return 0;
@@ -41,7 +41,8 @@ constexpr std::uint32_t float_bits(std::uint64_t m, int exponent) {
   const int place = exponent + cut;
   // Adding the mantissa with its hidden bit to a field that is one too low carries correctly, also after
   // rounding up to the next power of two and for subnormals, whose hidden bit is absent.
-  return static_cast<std::uint32_t>((static_cast<std::uint64_t>(place + 149) << 23) + rounded);
+  const std::uint64_t bits = (static_cast<std::uint64_t>(place + 149) << 23) + rounded;
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(bits, 0x7FFFFFFF));
 }
 
 /// Bits of a word behind its binary point.
