@@ -64,5 +64,5 @@ TEST_CASE("a file that a killed process left half-written is gone after the next
   }
   REQUIRE(place.run("record " + scene("vkcube.ptf.xz") + " --out " + in + "/record").status == 0);
   REQUIRE(place.run("run " + scene("vkcube.ptf.xz") + " --tile-jobs " + in + "/jobs").status == 0);
-  CHECK(entries(place.path) == std::set<std::string>{"err", "jobs", "out", "record"});
+  CHECK(entries(place.path) == std::set<std::string>{"jobs", "record", "stderr", "stdout"});
 }

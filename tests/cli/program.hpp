@@ -43,9 +43,11 @@ class Place {
 
   [[nodiscard]] Outcome run(const std::string& arguments) const {
     const std::string command = std::string(HALFSPACE_PROGRAM) + " " + arguments + " >" +
-                                (path / "out").string() + " 2>" + (path / "err").string() + " </dev/null";
+                                (path / "stdout").string() + " 2>" + (path / "stderr").string() +
+                                " </dev/null";
     const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(path / "out"), slurp(path / "err")};
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(path / "stdout"),
+                    slurp(path / "stderr")};
     return outcome;
   }
 

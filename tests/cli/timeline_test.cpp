@@ -235,7 +235,7 @@ TEST_CASE("timeline: what cannot be shown is refused, and nothing is left behind
   const auto refused = [&](const std::string& frame, const std::string& options,
                            std::initializer_list<const char*> parts) {
     check_error(place.run(run_command(place, frame, options)), parts);
-    CHECK(entries(place.path) == std::set<std::string>{"out", "err"});
+    CHECK(entries(place.path) == std::set<std::string>{"stderr", "stdout"});
   };
   refused("cc0_truck.ptf.xz", "", {"2000000 events", "--timeline-draws", "--timeline-cycles"});
   refused("vkcube.ptf.xz", "--timeline-draws 0:1", {"draws 0 to 1", "vkcube", "has 1"});
