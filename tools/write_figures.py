@@ -98,14 +98,9 @@ def bench_frames(tools):
     return columns(table(tools, "speed"), names)
 
 
-def bench_speed(tools):
-    """The table that `halfspace bench speed` wrote; see the Makefile."""
-    method, rows = (ROOT / "out/speed/speed.md").read_text().split("\n\n", 1)
-    return f"{processor()}; {method}.\n\n{rows}"
-
-
-def bench_roof(tools):
-    method, rows = output(tools.program, "bench", "roof").split("\n\n", 1)
+def timed(text):
+    """A table whose first line says how it was measured, with the processor that measured."""
+    method, rows = text.split("\n\n", 1)
     return f"{processor()}; {method}.\n\n{rows}"
 
 
@@ -122,17 +117,6 @@ def bench_stages(tools):
     command = textwrap.fill(" ".join(["halfspace bench stages", *inputs]), 88, break_on_hyphens=False)
     command = command.replace("\n", " \\\n      ")
     return f"    {command}\n\n{processor()}; {method}.\n\n{rows}"
-
-
-def bench_surfaces(tools):
-    method, rows = output(tools.program, "bench", "surfaces").split("\n\n", 1)
-    return f"{processor()}; {method}.\n\n{rows}"
-
-
-def bench_read(tools):
-    """The table that tools/bench_read.py wrote; see the Makefile."""
-    method, rows = (ROOT / "out/read/read.md").read_text().strip().split("\n\n", 1)
-    return f"{processor()}; {method}.\n\n{rows}"
 
 
 def reference(tools):
@@ -529,12 +513,12 @@ FIGURES = {
     "stress-sharpness": ("docs/guides/stress.md", stress_sharpness),
     "depth-error": ("docs/numerics.md", depth_error),
     "bench-error": ("docs/guides/error.md", error),
-    "bench-speed": ("docs/guides/speed.md", bench_speed),
-    "bench-roof": ("docs/guides/speed.md", bench_roof),
+    "bench-speed": ("docs/guides/speed.md", lambda _: timed((ROOT / "out/speed/speed.md").read_text())),
+    "bench-roof": ("docs/guides/speed.md", lambda tools: timed(output(tools.program, "bench", "roof"))),
     "bench-profile": ("docs/guides/speed.md", bench_profile),
     "bench-stages": ("docs/guides/speed.md", bench_stages),
-    "bench-surfaces": ("docs/guides/speed.md", bench_surfaces),
-    "bench-read": ("docs/guides/meshes.md", bench_read),
+    "bench-surfaces": ("docs/guides/speed.md", lambda tools: timed(output(tools.program, "bench", "surfaces"))),
+    "bench-read": ("docs/guides/meshes.md", lambda _: timed((ROOT / "out/read/read.md").read_text())),
 }
 # The others need the RTL, a profiler or minutes: a target of the Makefile each.
 SLOW = ("bench-idle", "idle-toggles", "depth-error", "bench-error", "bench-speed", "bench-roof", "bench-profile")
