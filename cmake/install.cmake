@@ -10,8 +10,8 @@ install(TARGETS halfspace_systemc halfspace_run EXPORT halfspaceSystemcTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS halfspace_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY model/halfspace DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.hpp" PATTERN c_api EXCLUDE PATTERN cli EXCLUDE PATTERN reference EXCLUDE
-                                 PATTERN speed EXCLUDE)
+        FILES_MATCHING PATTERN "*.hpp" PATTERN c_api EXCLUDE PATTERN cli EXCLUDE PATTERN gltf EXCLUDE
+                                 PATTERN reference EXCLUDE PATTERN speed EXCLUDE)
 foreach(targets halfspaceTargets halfspaceSystemcTargets)
   install(EXPORT ${targets} NAMESPACE halfspace:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/halfspace)
 endforeach()

@@ -229,6 +229,12 @@ TEST_CASE("glTF: skins follow their joints and not the node that has the mesh") 
     CHECK(mesh.left_out ==
           Texts{"1 faces with a vertex that is not finite", "1 vertices that are not finite"});
   }
+  SECTION("instances of a skinned mesh are all where its joints are: one is drawn") {
+    sample.node()["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        sample.add("VEC3", std::vector<float>{5, 0, 0, 6, 0, 0, 7, 0, 0});
+    check_rects(sample, {{-2, -3, 0, -1}});
+    CHECK(sample.read().left_out == Texts{"2 instances of skinned meshes"});
+  }
   SECTION("a primitive without joints is where its node is") {
     sample.attributes().erase("JOINTS_0");
     sample.attributes().erase("WEIGHTS_0");

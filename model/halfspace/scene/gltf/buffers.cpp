@@ -52,15 +52,17 @@ std::vector<std::byte> Buffers::load(const Object& buffer, const std::string& ur
 
 /// Whether the buffer's bytes can be had, as far as is known before it is read.
 bool Buffers::is_there(std::uint64_t index) const {
-  const std::string uri = document_.get(kBuffers, index).text_or("uri", "");
-  if (uri.empty()) return index == 0 && document_.chunk();
-  return is_data_uri(uri) || file(uri);
+  const Object buffer = document_.get(kBuffers, index);
+  const std::string* const uri = buffer.find_text("uri");
+  if (uri == nullptr) return index == 0 && document_.chunk();
+  return is_data_uri(*uri) || file(*uri);
 }
 
 std::span<const std::byte> Buffers::buffer(std::uint64_t index) {
   const Object buffer = document_.get(kBuffers, index);
   std::span<const std::byte> bytes;
-  if (!buffer.has("uri")) {
+  const std::string* const uri = buffer.find_text("uri");
+  if (uri == nullptr) {
     if (index != 0 || !document_.chunk()) {
       document_.fail("buffer {} has no uri; legal: only buffer 0 of a GLB file has none", index);
     }
@@ -68,7 +70,7 @@ std::span<const std::byte> Buffers::buffer(std::uint64_t index) {
   } else if (const auto loaded = loaded_.find(index); loaded != loaded_.end()) {
     bytes = loaded->second;
   } else {
-    bytes = loaded_.emplace(index, load(buffer, buffer.text_or("uri", ""))).first->second;
+    bytes = loaded_.emplace(index, load(buffer, *uri)).first->second;
   }
   const std::uint64_t length = buffer.number("byteLength");
   if (length > bytes.size()) {

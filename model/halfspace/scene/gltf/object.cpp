@@ -83,11 +83,16 @@ bool Object::truth_or(const char* key, bool fallback) const {
   return value->get<bool>();
 }
 
-std::string Object::text_or(const char* key, std::string_view fallback) const {
+const std::string* Object::find_text(const char* key) const {
   const json* const value = find(key);
-  if (value == nullptr) return std::string(fallback);
+  if (value == nullptr) return nullptr;
   if (!value->is_string()) fail_type(key, *value, "a text");
-  return value->get<std::string>();
+  return &value->get_ref<const std::string&>();
+}
+
+std::string Object::text_or(const char* key, std::string_view fallback) const {
+  const std::string* const text = find_text(key);
+  return text == nullptr ? std::string(fallback) : *text;
 }
 
 const json* Object::find_list(const char* key) const {

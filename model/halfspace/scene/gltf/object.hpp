@@ -36,6 +36,8 @@ class Object {
   [[nodiscard]] std::optional<double> find_real(const char* key) const;
   [[nodiscard]] double real(const char* key) const;
   [[nodiscard]] bool truth_or(const char* key, bool fallback) const;
+  /// The text itself: it can be all of the file.
+  [[nodiscard]] const std::string* find_text(const char* key) const;
   [[nodiscard]] std::string text_or(const char* key, std::string_view fallback) const;
 
   /// A list of numbers; empty when there is none.

@@ -1,6 +1,7 @@
 #include "halfspace/scene/gltf/uri.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 
@@ -19,31 +20,37 @@ bool same_but_case(std::string_view a, std::string_view b) {
 bool is_letter(char c) { return to_lower(c) >= 'a' && to_lower(c) <= 'z'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// 0 to 63, or nothing. The URL-safe digits are taken too.
-std::optional<std::uint32_t> base64_digit(char c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (is_digit(c)) return c - '0' + 52;
-  if (c == '+' || c == '-') return 62;
-  if (c == '/' || c == '_') return 63;
-  return std::nullopt;
+constexpr std::uint8_t kNoDigit = 64;
+
+/// 0 to 63 for each character, or kNoDigit. The URL-safe digits are taken too.
+constexpr std::array<std::uint8_t, 256> base64_digits() {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::array<std::uint8_t, 256> digits{};
+  digits.fill(kNoDigit);
+  for (std::size_t i = 0; i < kDigits.size(); ++i) {
+    digits[static_cast<unsigned char>(kDigits[i])] = static_cast<std::uint8_t>(i);
+  }
+  digits['-'] = digits['+'];
+  digits['_'] = digits['/'];
+  return digits;
 }
 
 std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
+  static constexpr std::array kDigits = base64_digits();
   while (text.ends_with('=')) text.remove_suffix(1);
   if (text.size() % 4 == 1) return std::nullopt;
-  std::vector<std::byte> bytes;
-  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::vector<std::byte> bytes(text.size() / 4 * 3 + text.size() % 4 * 3 / 4);
   std::uint32_t bits = 0;
   int count = 0;
+  std::size_t size = 0;
   for (const char c : text) {
-    const auto digit = base64_digit(c);
-    if (!digit) return std::nullopt;
-    bits = bits << 6 | *digit;
+    const std::uint8_t digit = kDigits[static_cast<unsigned char>(c)];
+    if (digit == kNoDigit) return std::nullopt;
+    bits = bits << 6 | digit;
     count += 6;
     if (count >= 8) {
       count -= 8;
-      bytes.push_back(static_cast<std::byte>(bits >> count & 0xFF));
+      bytes[size++] = static_cast<std::byte>(bits >> count & 0xFF);
     }
   }
   return bytes;
@@ -77,7 +84,9 @@ std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
   if (comma == std::string_view::npos) return std::nullopt;
   constexpr std::string_view kMark = ";base64";
   const std::string_view header = uri.substr(0, comma);
-  const std::string data = percent_decode(uri.substr(comma + 1));
+  std::string_view data = uri.substr(comma + 1);
+  std::string decoded;
+  if (data.find('%') != std::string_view::npos) data = decoded = percent_decode(data);
   if (header.size() >= kMark.size() && same_but_case(header.substr(header.size() - kMark.size()), kMark)) {
     return decode_base64(data);
   }
