@@ -85,11 +85,11 @@ TEST_CASE("PLY: line ends, blanks, comments and a mark in the header do not chan
            {"", "comment\n", "comment element vertex 9\n", "obj_info a b\n", "\n", "  comment\tx\n"}) {
         std::string extra = more;
         if (!extra.empty()) extra.replace(extra.size() - 1, 1, end);
-        std::vector<std::string> all{"ply", extra + "format " + format + " 1.0"};
+        std::vector<std::string> all{"ply", fmt::format("{}format {} 1.0", extra, format)};
         for (const std::string& line : head) all.push_back((more.empty() ? "" : "\t") + line);
         all[4].insert(0, extra);
         all.back().insert(0, extra);
-        const Mesh mesh = ply_mesh(mark + lines(all, end) + body);
+        const Mesh mesh = ply_mesh(fmt::format("{}{}{}", mark, lines(all, end), body));
         REQUIRE(mesh.positions == PlyPositions{{numbers[0], 0, 0}, {1, 0, 0}, {0, 1, 0}});
         REQUIRE(mesh.indices == PlyIndices{0, 1, 2});
         REQUIRE(mesh.left_out.empty());

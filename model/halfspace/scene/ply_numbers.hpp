@@ -110,14 +110,15 @@ class BinaryNumbers {
   [[nodiscard]] std::uint64_t room() const { return rest_.size(); }
 
   double next_real(Type type) {
-    return with_type(type, [this](auto value) { return static_cast<double>(take<decltype(value)>()); });
+    return with_type(
+        type, [this](auto value) { return static_cast<double>(this->template take<decltype(value)>()); });
   }
 
   /// The type is one of integers.
   std::int64_t next_integer(Type type, std::string_view /*property*/) {
     return with_type(type, [this](auto value) -> std::int64_t {
       if constexpr (std::is_integral_v<decltype(value)>) {
-        return take<decltype(value)>();
+        return this->template take<decltype(value)>();
       } else {
         return 0;
       }
