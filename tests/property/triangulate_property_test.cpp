@@ -69,18 +69,21 @@ PolygonInSpace put_into_space(Random& random, const Ring& ring) {
 /// what lies beside it: first to the right or left of it, then below or above, as the rule has it.
 std::vector<int> winding_numbers(const Ring& ring, TieRule rule = TieRule::kTopLeft) {
   std::vector<int> result(kPolygonPixels * kPolygonPixels, 0);
+  const auto at = [&](std::int64_t x, std::int64_t y) -> int& {
+    return result[static_cast<std::size_t>(y * kPolygonPixels + x)];
+  };
   for (std::size_t i = 0; i < ring.size(); ++i) {
     GridPoint a = ring[i], b = ring[(i + 1) % ring.size()];
     const int sign = a.y < b.y ? -1 : 1;
     if (a.y > b.y) std::swap(a, b);
-    for (int row = 0; row < kPolygonPixels; ++row) {
+    for (std::int64_t row = 0; row < kPolygonPixels; ++row) {
       const std::int64_t y = reference::pixel_centre(0, row, kPolygonBits).y;
       if (owns_top(rule) ? y < a.y || y >= b.y : y <= a.y || y > b.y) continue;
-      for (int column = 0; column < kPolygonPixels; ++column) {
+      for (std::int64_t column = 0; column < kPolygonPixels; ++column) {
         const std::int64_t x = reference::pixel_centre(column, row, kPolygonBits).x;
         const std::int64_t to_the_right = (x - a.x) * (b.y - a.y) - (b.x - a.x) * (y - a.y);
         if (to_the_right < 0 || (to_the_right == 0 && !owns_left(rule))) continue;
-        result[static_cast<std::size_t>(row * kPolygonPixels + column)] += sign;
+        at(column, row) += sign;
       }
     }
   }
@@ -264,6 +267,7 @@ TEST_CASE("triangulate: the machine draws each pixel of a weakly simple polygon 
       const halfspace::FrameResult result = run_functional(builder.frame, config);
       for (int i = 0; i < kAcross * kAcross; ++i) {
         std::vector<int> fragments;
+        fragments.reserve(kPolygonSamples);
         for (int pixel = 0; pixel < static_cast<int>(kPolygonSamples); ++pixel) {
           fragments.push_back(
               result.surfaces.at(0).fragments.at((i % kAcross) * kPolygonPixels + pixel % kPolygonPixels,

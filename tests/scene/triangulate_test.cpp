@@ -112,6 +112,34 @@ TEST_CASE("a polygon that touches itself is covered once") {
       {"bridge with a bend",
        {{0, 0}, {2, 0}, {2, 2}, {4, 4}, {6, 2}, {8, 2}, {8, 0}, {9, 3}, {6, 2}, {4, 4}, {2, 2}, {0, 2}},
        6},
+      {"bends before a room to the left",
+       {{0, 0},
+        {1, 0},
+        {1, 1},
+        {41, 1},
+        {41, 41},
+        {21, 41},
+        {21, 1},
+        {1, 1},
+        {1, 0},
+        {0, 0},
+        {-20, 20},
+        {-20, -20}},
+       1200},
+      {"bends before a room to the right",
+       {{0, 0},
+        {1, 0},
+        {1, 1},
+        {21, 1},
+        {21, -39},
+        {41, -39},
+        {41, 1},
+        {1, 1},
+        {1, 0},
+        {0, 0},
+        {-20, 20},
+        {-20, -20}},
+       1200},
       {"slit inside of a slit", {{0, 0}, {8, 0}, {8, 4}, {2, 4}, {6, 4}, {4, 4}, {8, 4}, {8, 8}, {0, 8}}, 64},
       {"corners that repeat", {{0, 0}, {0, 0}, {4, 0}, {1, 1}, {1, 1}, {1, 1}, {0, 4}, {0, 4}}, 4},
       {"flat corners", {{0, 0}, {2, 0}, {4, 0}, {3, 0.75}, {2, 1.5}, {1, 2.25}, {0, 3}, {1, 1}, {0, 1}}, 5},
@@ -127,6 +155,7 @@ TEST_CASE("no size of coordinates is too large or too small") {
   const std::vector<glm::dvec2> arrow{{0, 0}, {4, 0}, {1, 1}, {0, 4}};
   for (const int log2 : {-1074, -1000, -500, 0, 500, 1021}) {
     std::vector<glm::dvec3> points;
+    points.reserve(arrow.size());
     for (const glm::dvec2& p : arrow) points.emplace_back(std::ldexp(p.x, log2), std::ldexp(p.y, log2), 0);
     std::vector<std::uint32_t> triangles;
     REQUIRE(triangulate(all_corners(4), points, triangles));

@@ -21,6 +21,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include "halfspace/numerics/orientation.hpp"
@@ -48,7 +49,10 @@ struct Cut {
   Corner at = kNone;
   Corner before = kNone;
   Corner after = kNone;
-  auto operator<=>(const Cut&) const = default;
+  bool operator==(const Cut&) const = default;
+  bool operator>(const Cut& other) const {
+    return std::tie(kind, size, at) > std::tie(other.kind, other.size, other.at);
+  }
 };
 
 class EarClipping {
