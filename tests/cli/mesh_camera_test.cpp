@@ -23,7 +23,7 @@ TEST_CASE("the program takes a camera of the file, and info lists them") {
   CHECK(info.err.empty());
 
   const auto pixels = [&](const std::string& camera) {
-    const std::string out = (place.path / "out").string();
+    const std::string out = (place.path / "result").string();
     const Outcome run = place.run("run " + file + " --size 32x32 --no-pictures --out " + out + " " + camera);
     CHECK(run.status == 0);
     const std::string npy = slurp(fs::path(out) / "fragments0.npy");
