@@ -59,7 +59,7 @@ def versions():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--passes", type=int, default=9)
+    parser.add_argument("--passes", type=int, default=5)
     parser.add_argument("--side", type=int, default=400, help="vertices of the grid on a side")
     options = parser.parse_args()
     readers = [lambda path: by_halfspace(options.program, path), by_assimp, by_trimesh, by_pyminiply]
