@@ -66,6 +66,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
     for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
     return;
   }
+  reserve_triangles(corners.size() - 2);
   if (!triangulate(corners, mesh_.positions, mesh_.indices)) {
     throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
                                  corners.size(), kMaxConcaveCorners));

@@ -184,6 +184,7 @@ class BodyParser {
     const std::uint32_t count = next_count(property);
     if (count > 2) builder_.check_room(0, count - 2);
     corners_.clear();
+    corners_.reserve(std::min<std::uint64_t>(count, numbers_.room()));
     for (std::uint32_t c = 0; c < count; ++c) {
       corners_.push_back(to_vertex(numbers_.next_integer(property.type, property.name), "face", record));
     }
