@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <vector>
 
 #include "halfspace/cli/exit_status.hpp"
@@ -20,6 +21,14 @@ double milliseconds(const Action& action) {
   action();
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   return time.count();
+}
+
+/// Milliseconds of the processor that action() takes.
+template <class Action>
+double processor_milliseconds(const Action& action) {
+  const std::clock_t start = std::clock();
+  action();
+  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 /// The middle one of some times.

@@ -1,7 +1,6 @@
 /// halfspace bench idle: what the engines with modules do where nothing happens, and what it costs.
 #include <fmt/format.h>
 
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -25,14 +24,6 @@ struct IdleOptions {
   RtlOptions rtl;
   int repeat = 3;
 };
-
-/// Milliseconds of the processor that action() takes.
-template <class Action>
-double processor_milliseconds(const Action& action) {
-  const std::clock_t start = std::clock();
-  action();
-  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 void print_idle(const Frame& frame, const std::string& machine, const Config& config,
                 const IdleOptions& options) {

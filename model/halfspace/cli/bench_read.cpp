@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -50,15 +49,6 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
-
-/// Milliseconds of the processor that action() takes: readers wait for nothing but the processor, and on a
-/// shared machine others make them wait.
-template <class Action>
-double processor_milliseconds(const Action& action) {
-  const std::clock_t start = std::clock();
-  action();
-  return 1000. * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 void print_row(const std::filesystem::path& path, int repeat) {
   std::size_t triangles = 0;
