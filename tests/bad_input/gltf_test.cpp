@@ -97,14 +97,15 @@ const GltfRule kGltfRules[] = {
     {[](json& j) { j["nodes"][0].erase("mesh"); },
      "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle or more"},
     {[](json& j) { primitive(j)["mode"] = 1; },
-     "f: mesh has 0 vertices and 0 triangles, without 1 primitives of points or lines; legal: 1 triangle or "
+     "f: mesh has 0 vertices and 0 triangles, without primitives of points or lines (1); legal: 1 triangle "
+     "or "
      "more"},
     {[](json& j) { primitive(j)["mode"] = 7; }, "f: primitive mode is 7; legal: 0 to 6"},
     {[](json& j) { primitive(j)["material"] = 0; }, "f: material is 0; legal: 0 or more and below 0"},
     {[](json& j) {
        primitive(j)["attributes"] = {{"NORMAL", 0}};
      },
-     "f: mesh has 0 vertices and 0 triangles, without 1 primitives without positions; legal: 1 triangle or "
+     "f: mesh has 0 vertices and 0 triangles, without primitives without positions (1); legal: 1 triangle or "
      "more"},
     {[](json& j) { primitive(j).erase("attributes"); },
      "f: mesh 0 primitives: attributes is missing; legal: an object"},

@@ -85,7 +85,7 @@ TEST_CASE("malformed PLY bodies are refused") {
       {triangle("3 0 1 x"), "f: body has \"x\"; legal: a number"},
       {triangle("3 0 1 2x"), "f: body has \"2x\"; legal: a number"},
       {triangle("2 0 1"),
-       "f: mesh has 3 vertices and 0 triangles, without 1 faces with fewer than three corners; legal: 1 "
+       "f: mesh has 3 vertices and 0 triangles, without faces with fewer than three corners (1); legal: 1 "
        "triangle or more"},
       {triangle("3 0 1 3"), "f: face 0 has vertex 3; legal: below 3"},
       {triangle("3 0 1 -1"), "f: face 0 has vertex -1; legal: below 3"},

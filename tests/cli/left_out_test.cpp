@@ -13,7 +13,7 @@ TEST_CASE("what a reader leaves out is said on stderr by every subcommand, and b
   std::ofstream(place.path / "clean.obj") << triangle;
   const std::string odd = (place.path / "odd.obj").string();
   const std::string clean = (place.path / "clean.obj").string();
-  const std::string what = "left out: 1 faces with fewer than three corners, 3 points and lines\n";
+  const std::string what = "left out: faces with fewer than three corners (1), points and lines (3)\n";
   const std::string line = "halfspace: " + odd + ": " + what;
   const std::string record = " --out " + (place.path / "r").string() + " ";
   for (const std::string& command : std::initializer_list<std::string>{

@@ -116,7 +116,7 @@ TEST_CASE("OBJ: a part for each run of a material, points and lines counted") {
   CHECK(mesh.parts[2].first_index == 9);
   CHECK(mesh.parts[2].index_count == 3);
   CHECK(mesh.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
-  CHECK(mesh.left_out == std::vector<std::string>{"2 points and lines"});
+  CHECK(mesh.left_out == std::vector<std::string>{"points and lines (2)"});
 }
 
 TEST_CASE("PLY: faces before vertices, other elements and lists are passed over, edges counted") {
@@ -130,7 +130,7 @@ TEST_CASE("PLY: faces before vertices, other elements and lists are passed over,
   CHECK(mesh.indices == std::vector<std::uint32_t>{2, 1, 0});
   CHECK(mesh.positions[0] == glm::dvec3(1, 2, 0.5f));
   CHECK(mesh.positions[2] == glm::dvec3(-1, -1, 1e99));
-  CHECK(mesh.left_out == std::vector<std::string>{"2 edges"});
+  CHECK(mesh.left_out == std::vector<std::string>{"edges (2)"});
 }
 
 TEST_CASE("glTF: transforms go from the node to the root") {
@@ -188,7 +188,7 @@ TEST_CASE("glTF: triangle lists, strips and fans, points and lines counted") {
   for (int mode = 0; mode < 4; ++mode) {
     json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", mode}});
   }
-  CHECK(read_json(json).left_out == std::vector<std::string>{"4 primitives of points or lines"});
+  CHECK(read_json(json).left_out == std::vector<std::string>{"primitives of points or lines (4)"});
 }
 
 TEST_CASE("glTF: indices of 8, 16 and 32 bits, interleaved positions, shared and outside buffers") {
@@ -240,9 +240,9 @@ TEST_CASE("glTF: images are never opened") {
 TEST_CASE(
     "faces of fewer than three corners, and vertices that are not finite, are left out and counted alike") {
   // Faces 0 1 2, then one with the infinite vertex 3, one of two corners and one of none.
-  const std::vector<std::string> expected{"1 faces with a vertex that is not finite",
-                                          "2 faces with fewer than three corners",
-                                          "1 vertices that are not finite"};
+  const std::vector<std::string> expected{"faces with a vertex that is not finite (1)",
+                                          "faces with fewer than three corners (2)",
+                                          "vertices that are not finite (1)"};
   const Mesh ply = read_text("a.ply",
                              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                              "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"

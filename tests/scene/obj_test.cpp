@@ -94,22 +94,22 @@ TEST_CASE("OBJ: vertices that are not finite are left out with their faces, and 
         obj_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 " + number + "\nf 4 1 2\nf 1 2 3\nf 1 2 3 4\n");
     CHECK(mesh.indices == Indices{0, 1, 2});
     CHECK(mesh.left_out ==
-          Strings{"2 faces with a vertex that is not finite", "1 vertices that are not finite"});
+          Strings{"faces with a vertex that is not finite (2)", "vertices that are not finite (1)"});
   }
   CHECK(obj_mesh(kObjPoints + "v 1e39 0 -1e-400\nf 1 2 5\n").positions[4] == glm::dvec3(1e39, 0, 0));
 }
 
 TEST_CASE("OBJ: faces of fewer than three corners are left out and counted") {
   CHECK(left_out_of_obj("f\nf 1\nf 1/1 2/2\nfo 1 \\\n2\n") ==
-        Strings{"4 faces with fewer than three corners"});
+        Strings{"faces with fewer than three corners (4)"});
 }
 
 TEST_CASE("OBJ: what draws something else is left out and counted") {
-  CHECK(left_out_of_obj("p 1 2\nl 1 2 3\np 4\n") == Strings{"3 points and lines"});
-  CHECK(left_out_of_obj("curv 0 1 1 2 3\ncurv2 1 2\ncdc 1 2 3 4\n") == Strings{"3 free-form curves"});
+  CHECK(left_out_of_obj("p 1 2\nl 1 2 3\np 4\n") == Strings{"points and lines (3)"});
+  CHECK(left_out_of_obj("curv 0 1 1 2 3\ncurv2 1 2\ncdc 1 2 3 4\n") == Strings{"free-form curves (3)"});
   CHECK(left_out_of_obj("surf 0 1 0 1 1 2 3 \\\n4\nbsp 1\nbzp 1\ncdp 1\n") ==
-        Strings{"4 free-form surfaces"});
-  CHECK(left_out_of_obj("v1 2 3\nF 1 2 3\nsolid cube\n\x1A") == Strings{"4 unknown statements"});
+        Strings{"free-form surfaces (4)"});
+  CHECK(left_out_of_obj("v1 2 3\nF 1 2 3\nsolid cube\n\x1A") == Strings{"unknown statements (4)"});
 }
 
 TEST_CASE("OBJ: statements that say nothing about triangles are passed over") {

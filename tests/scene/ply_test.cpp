@@ -197,7 +197,7 @@ TEST_CASE("PLY: strips of fewer than three corners count as such faces") {
   const Mesh mesh = ply_mesh(
       ply_text(4, "element tristrips 1\nproperty list int int vertex_indices\n", "9 0 -1 0 1 -1 0 1 2 -1"));
   CHECK(mesh.indices == PlyIndices{0, 1, 2});
-  CHECK(mesh.left_out == PlyStrings{"2 faces with fewer than three corners"});
+  CHECK(mesh.left_out == PlyStrings{"faces with fewer than three corners (2)"});
 }
 
 TEST_CASE("PLY: faces and strips are in the file's order, and may stand before the vertices") {
@@ -223,9 +223,9 @@ TEST_CASE(
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n0 1.#INF 0\n0\n1 0\n2 0 1\n3 0 1 3\n4 0 1 2 4\n3 0 1 2\n5 1 0 2 3 0\n");
   CHECK(mesh.indices == PlyIndices{0, 1, 2, 1, 0, 2});
-  CHECK(mesh.left_out == PlyStrings{"4 faces with a vertex that is not finite",
-                                    "3 faces with fewer than three corners",
-                                    "2 vertices that are not finite"});
+  CHECK(mesh.left_out == PlyStrings{"faces with a vertex that is not finite (4)",
+                                    "faces with fewer than three corners (3)",
+                                    "vertices that are not finite (2)"});
 }
 
 TEST_CASE("PLY: other elements and what stands behind the last one are left out and counted") {
@@ -235,7 +235,7 @@ TEST_CASE("PLY: other elements and what stands behind the last one are left out 
       kPlyFaces;
   const Mesh mesh = ply_mesh(ply_text(3, elements, "0 1 1 2 0.5 2 7 8 3 0 1 2 \n\r\n 3 0 1\n"));
   CHECK(mesh.indices == PlyIndices{0, 1, 2});
-  CHECK(mesh.left_out ==
-        PlyStrings{"6 bytes behind the last element", "2 edges", "1 records of the element \"camera\""});
+  CHECK(mesh.left_out == PlyStrings{"bytes behind the last element (6)", "edges (2)",
+                                    "records of the element \"camera\" (1)"});
   CHECK(ply_mesh(ply_text(3, "element face 1\n" + kPlyFaces, "3 0 1 2 \r\n\n")).left_out.empty());
 }

@@ -31,8 +31,6 @@ constexpr double kLeastNearOverFar = 1e-4;
 constexpr double kParallel = 0.9999;  // cosine from which a view direction counts as straight up or down
 constexpr double kMostParallel = 1 - 1e-12;  // ... and from which a given up tells no direction
 
-bool is_finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-
 std::string to_text(glm::dvec3 p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
 void check_camera(const Camera& camera, std::string_view name) {

@@ -109,7 +109,7 @@ struct Frame {
   std::vector<glm::vec4> vertices;     ///< clip space
   std::vector<std::uint32_t> indices;  ///< relative to the draw's first_vertex, three a triangle
   std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
-  std::vector<std::string> left_out;   ///< what of the input is not in the frame: "3 points and lines"
+  std::vector<std::string> left_out;   ///< what of the input is not in the frame: "points and lines (3)"
   std::vector<std::string> cameras;    ///< names of the cameras that stand in the mesh's file
 };
 

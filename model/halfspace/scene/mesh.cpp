@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
@@ -11,6 +12,10 @@
 #include "halfspace/scene/quote.hpp"
 
 namespace halfspace {
+
+bool is_finite(glm::dvec3 position) {
+  return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+}
 
 Mesh read_mesh(const std::filesystem::path& path) {
   const std::string name = display_name(path);

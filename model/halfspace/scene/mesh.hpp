@@ -39,8 +39,11 @@ struct Mesh {
   std::vector<std::uint32_t> indices;  ///< below positions.size()
   std::vector<MeshPart> parts;
   std::vector<MeshCamera> cameras;
-  std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "3 points and lines"
+  std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "points and lines (3)"
 };
+
+/// All three coordinates.
+[[nodiscard]] bool is_finite(glm::dvec3 position);
 
 /// The mesh in an .obj, .ply, .gltf or .glb file (by extension, as load() takes it; its bytes may be packed
 /// by gzip or xz). Polygons are triangulated; a glTF scene's instances are written out. Materials, images and

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -19,8 +18,6 @@ void reserve_more(std::vector<T>& list, std::uint64_t more) {
   const std::uint64_t size = list.size() + more;
   if (size > list.capacity()) list.reserve(std::max<std::uint64_t>(size, 2 * list.capacity()));
 }
-
-bool is_finite(glm::dvec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 }  // namespace
 
@@ -92,7 +89,7 @@ void MeshBuilder::leave_out(std::string_view what, std::uint64_t count) {
 
 Mesh MeshBuilder::finish() && {
   leave_out("vertices that are not finite", not_finite_);
-  for (const auto& [what, count] : left_out_) mesh_.left_out.push_back(fmt::format("{} {}", count, what));
+  for (const auto& [what, count] : left_out_) mesh_.left_out.push_back(fmt::format("{} ({})", what, count));
   if (mesh_.indices.empty()) {
     std::string also;
     for (const std::string& text : mesh_.left_out)

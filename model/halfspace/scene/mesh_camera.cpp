@@ -72,8 +72,7 @@ void check_mesh_camera(const MeshCamera& camera, std::string_view name) {
     check(*camera.far > camera.near, "zfar", *camera.far, fmt::format("above znear, {}", camera.near));
   for (int column = 1; column < 4; ++column) {
     const glm::dvec3 axis(camera.world[column]);
-    const bool is_finite = std::isfinite(axis.x) && std::isfinite(axis.y) && std::isfinite(axis.z);
-    if (!is_finite || (column < 3 && axis == glm::dvec3(0))) {
+    if (!is_finite(axis) || (column < 3 && axis == glm::dvec3(0))) {
       throw InputError(fmt::format("{}: camera {}: {} is {}; legal: finite numbers{}", name,
                                    quote(camera.name), column == 3 ? "its place" : "an axis",
                                    fmt::format("({}, {}, {})", axis.x, axis.y, axis.z),
