@@ -1,5 +1,6 @@
 #include "halfspace/units/hi_z.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <stdexcept>
 
@@ -88,6 +89,7 @@ HiZ::HiZ(const HiZConfig& config, std::uint32_t blocks) : config_(config) {
   tiles_ = row * row;
   entries_ = tiles_ * static_cast<std::size_t>(config.parts);
   if (config.enabled) {
+    blocks = std::max(blocks, 1u);  // a job that it does not look at counts as one of block 0
     states_ = zeroed_array<WordState>(blocks);
     words_ = zeroed_array<HiZWord>(blocks);
     raising_ = zeroed_array<std::uint16_t>(blocks * tiles_);
