@@ -133,7 +133,13 @@ class VertexTransform {
       const Single single;
       return hn::BitCast(Narrow(), hn::Add(hn::DemoteTo(single, depth), hn::Zero(single)));
     }
-    return hn::DemoteTo(Narrow(), hn::Round(hn::Mul(depth, hn::Set(Real(), task_.depth_one))));
+    return nearest(hn::Mul(depth, hn::Set(Real(), task_.depth_one)));
+  }
+
+  /// The nearest whole number, halves to even; 0 of what is no number, which such a strange vertex needs only
+  /// because Highway's emulation of vectors converts as C++ does: without a defined result.
+  static HWY_INLINE NarrowVector nearest(RealVector v) {
+    return hn::DemoteTo(Narrow(), hn::Round(hn::IfThenElseZero(hn::Eq(v, v), v)));
   }
 
   /// Outside the two planes of the guard band.
@@ -155,7 +161,7 @@ class VertexTransform {
     const RealVector scaled =
         hn::Mul(hn::Mul(hn::Add(ndc, hn::Set(real, 1.0)), hn::Set(real, extent)), hn::Set(real, 0.5));
     const RealVector window = hn::Min(hn::Max(hn::Add(hn::Set(real, begin), scaled), hn::Neg(band)), band);
-    return hn::DemoteTo(Narrow(), hn::Round(hn::Mul(window, hn::Set(real, task_.sub_pixels))));
+    return nearest(hn::Mul(window, hn::Set(real, task_.sub_pixels)));
   }
 
   const FrontEndTask& task_;
