@@ -290,6 +290,10 @@ TEST_CASE("what is not JSON, or deep or large beyond reason, is refused before i
   CHECK(error_of_gltf("[]") == malformed);
   CHECK(error_of_gltf("{\"asset\": ") == malformed);
   CHECK(error_of_gltf("{\"a\": 1e999}") == malformed);
+  CHECK(error_of_gltf(std::string("\0\0", 2)) == malformed);
+  CHECK(error_of_gltf(cube_gltf().dump().insert(1, 1, '\0')) == "f: JSON byte 1 is zero; legal: text");
+  CHECK(error_of_gltf(cube_gltf().dump() + std::string("\0{}", 3)).find("is zero; legal: text") !=
+        std::string::npos);
   CHECK(error_of_gltf(std::string(1000000, '[')) ==
         "f: JSON is nested 65 deep at byte 64; legal: at most 64");
   CHECK(error_of_gltf("[" + std::string(5000000, ',')) ==

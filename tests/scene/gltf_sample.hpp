@@ -85,10 +85,11 @@ struct GltfSample {
     return json.dump();
   }
 
-  [[nodiscard]] std::string binary() const {
+  /// `padding` follows the JSON in its chunk.
+  [[nodiscard]] std::string binary(const std::string& padding = "") const {
     nlohmann::json json = root;
     json["buffers"][0] = {{"byteLength", buffer.size()}};
-    return glb(json.dump(), buffer);
+    return glb(json.dump() + padding, buffer);
   }
 
   [[nodiscard]] Mesh read() const { return parse_gltf(as_bytes(text()), "f", "/nonexistent"); }

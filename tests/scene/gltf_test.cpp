@@ -340,6 +340,7 @@ TEST_CASE("glTF: containers, byte order marks, and what follows the end of a GLB
   const std::vector<glm::dvec3> expected = corners_of({{-1, -1, 1, 1}});
   CHECK(drawn(read("\xEF\xBB\xBF" + sample.text())) == expected);
   CHECK(drawn(read(sample.binary())) == expected);
+  CHECK(drawn(read(sample.binary(std::string(4, '\0')))) == expected);
   const Mesh longer = read(sample.binary() + "more");
   CHECK(drawn(longer) == expected);
   CHECK(longer.left_out == Texts{"bytes behind the GLB's length (4)"});

@@ -55,8 +55,13 @@ void check_extent(std::string_view text, std::string_view name) {
 }  // namespace
 
 Document::Document(std::span<const std::byte> bytes, std::string_view name) : name_(name) {
-  const std::string_view text = open_container(bytes);
+  std::string_view text = open_container(bytes);
+  // A GLB's JSON should be padded with spaces; some writers take zeros, as for the binary chunk.
+  text = text.substr(0, text.find_last_not_of('\0') + 1);
   check_extent(text, name_);
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    fail("JSON byte {} is zero; legal: text", zero);  // the parser would take it for the end
+  }
   json_ = json::parse(text, nullptr, false);  // it skips a byte order mark
   if (!json_.is_object()) fail("JSON is malformed or not an object; legal: a glTF 2 file");
 
