@@ -79,8 +79,7 @@ void bench_read(const ReadOptions& options) {
   }
   fmt::print(
       "one thread, processor time, medians of {} runs (least to most), from the file that the system holds "
-      "in memory to the "
-      "mesh; MB: 10^6 bytes; memory: at the peak, in sizes of the file\n\n",
+      "in memory to the mesh; MB: 10^6 bytes; memory: at the peak, in sizes of the file\n\n",
       options.repeat);
   fmt::print(
       "| mesh | MB | triangles | ms | MB/s | Mtriangles/s | memory |\n|---|---:|---:|---:|---:|---:|---:|\n");

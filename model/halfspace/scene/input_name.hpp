@@ -17,8 +17,8 @@ enum class Packing : std::uint8_t { kNone, kGzip, kXz };
 
 /// A name taken apart. Extensions count in capitals too.
 struct InputName {
-  std::string
-      stem;  ///< without folder and extensions that are known; of a synthetic frame what follows the prefix
+  /// Without folder and extensions that are known; of a synthetic frame what follows the prefix.
+  std::string stem;
   std::string extension;          ///< with the one of its packing, as it is written: ".obj.gz"
   std::optional<InputKind> kind;  ///< none: no extension of an input
   Packing packing = Packing::kNone;

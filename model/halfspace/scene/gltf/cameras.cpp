@@ -5,6 +5,7 @@
 #include "halfspace/scene/quote.hpp"
 
 namespace halfspace::gltf {
+
 MeshCamera read_camera(const Document& document, std::size_t number, const Object& node,
                        const glm::dmat4& world) {
   const Object from = document.get(kCameras, number);
