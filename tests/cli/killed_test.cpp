@@ -7,7 +7,9 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "program.hpp"
 
@@ -29,14 +31,24 @@ TEST_CASE("run: what a killed run leaves the next one removes, while a live one 
   const fs::path results = place.path / "results";
   fs::create_directory(results);
   const std::string out = (results / "r").string();
+  // A triangle over 4096x4096 pixels, sixty times: minutes of work, so the run is alive as long as the test
+  // wants.
+  const std::string triangle = (place.path / "triangle.obj").string();
+  std::ofstream(triangle) << "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n";
+  std::vector<std::string> words{HALFSPACE_PROGRAM, "run",       "--eye",      "0,0,1",   "--at",  "0,0,0",
+                                 "--size",          "4096x4096", "--fidelity", "systemc", "--out", out};
+  words.insert(words.end(), 60, triangle);
+  std::vector<char*> arguments;
+  for (std::string& word : words) {
+    arguments.push_back(word.data());
+  }
+  arguments.push_back(nullptr);
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
     const int null = open("/dev/null", O_WRONLY);
     dup2(null, STDOUT_FILENO);
-    // Minutes of work: it is alive as long as the test wants.
-    execl(HALFSPACE_PROGRAM, HALFSPACE_PROGRAM, "run", "synthetic:random_122:full", "--fidelity", "systemc",
-          "--out", out.c_str(), nullptr);
+    execv(HALFSPACE_PROGRAM, arguments.data());
     _exit(127);
   }
   for (int i = 0; i < 600 && hidden_in(results).empty(); ++i) {

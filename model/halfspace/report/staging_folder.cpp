@@ -68,11 +68,17 @@ StagingFolder::StagingFolder(const fs::path& place) {
   remove_left_over(place);
   while (true) {
     std::string pattern = (place.parent_path() / prefix_of(place)).string() + std::string(kUnique);
-    if (mkdtemp(pattern.data()) == nullptr || (folder_ = open_folder(pattern)) < 0) {
+    const bool made = mkdtemp(pattern.data()) != nullptr;
+    folder_ = made ? open_folder(pattern) : -1;
+    // Until it is locked, another process may take the folder for one that was left behind, and remove it.
+    const bool removed = made && folder_ < 0 && errno == ENOENT;
+    if (folder_ < 0 && !removed) {
       throw InputError(fmt::format("{}: cannot be made: {}", place.string(), std::strerror(errno)));
     }
+    if (removed) {
+      continue;
+    }
     path_ = pattern;
-    // Between the two calls another process may have taken the folder for one that was left behind.
     const bool taken = !lock(folder_) && errno == EWOULDBLOCK;
     if (!taken && is_at(folder_, path_)) {
       break;
