@@ -432,7 +432,7 @@ class Batch {
     const RealVector estimate = hn::Div(hn::Mul(hn::ConvertTo(real, rest), hn::Set(real, double{1 << Shift})),
                                         hn::ConvertTo(real, area));
     steep = hn::Or(steep, hn::RebindMask(wide, hn::Gt(estimate, hn::Set(real, 0x1p50))));
-    WideLanes digits = hn::ConvertTo(wide, estimate);
+    WideLanes digits = hn::ConvertTo(wide, number_or_zero(estimate));  // 0 / 0 in lanes without a triangle
     rest = hn::Sub(hn::ShiftLeft<Shift>(rest), hn::Mul(digits, area));
     const WideLanes one = hn::Set(wide, std::int64_t{1});
     const auto over = hn::Lt(rest, hn::Zero(wide));

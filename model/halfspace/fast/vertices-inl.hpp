@@ -33,6 +33,10 @@ using NarrowVector = hn::Vec<Narrow>;
 inline constexpr std::size_t kTriangles = hn::MaxLanes(Wide());
 inline constexpr unsigned kAllTriangles = (1u << kTriangles) - 1;
 
+/// For conversions to whole numbers: lanes that are no number, of which the result is not used, become 0.
+/// Highway's emulation of vectors would convert them as C++ does, which is undefined.
+HWY_INLINE RealVector number_or_zero(RealVector v) { return hn::IfThenElseZero(hn::Eq(v, v), v); }
+
 template <class D, class Mask>
 HWY_INLINE unsigned lane_bits(D tag, Mask mask) {
   std::uint8_t bytes[8] = {};
@@ -136,10 +140,9 @@ class VertexTransform {
     return nearest(hn::Mul(depth, hn::Set(Real(), task_.depth_one)));
   }
 
-  /// The nearest whole number, halves to even; 0 of what is no number, which such a strange vertex needs only
-  /// because Highway's emulation of vectors converts as C++ does: without a defined result.
+  /// The nearest whole number, halves to even.
   static HWY_INLINE NarrowVector nearest(RealVector v) {
-    return hn::DemoteTo(Narrow(), hn::Round(hn::IfThenElseZero(hn::Eq(v, v), v)));
+    return hn::DemoteTo(Narrow(), hn::Round(number_or_zero(v)));
   }
 
   /// Outside the two planes of the guard band.
