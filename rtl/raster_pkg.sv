@@ -102,6 +102,18 @@ package raster_pkg;
   parameter int unsigned QuadMaskBits = 4;
   // samples that are tested in a cycle
   parameter int unsigned TestSamples = 4 * TestWidth;
+  // a float32
+  parameter int unsigned FloatBits = 32;
+  // a component of an attribute: fixed-point with 16 bits below the point, signed
+  parameter int unsigned AttributeBits = 32;
+  // pixels of a quad
+  parameter int unsigned QuadPixels = 4;
+  // components of an attribute
+  parameter int unsigned Components = 4;
+  // components at the three vertices
+  parameter int unsigned VertexValues = 3 * Components;
+  // components at the four pixels of a quad
+  parameter int unsigned QuadValues = QuadPixels * Components;
   // a line of depth is not coded in fewer
   parameter int unsigned LeastCodedBytes = 32;
   // a coded line has its bytes >> 1 to this
@@ -120,6 +132,7 @@ package raster_pkg;
   typedef logic signed [ShiftBits-1:0] shift_t;
   typedef logic signed [WordBits-1:0] word_t;
   typedef logic signed [ExponentBits-1:0] exponent_t;
+  typedef logic signed [AttributeBits-1:0] attribute_t;
 
   // front end -> setup: on the sub-pixel grid
   typedef struct packed {
@@ -267,6 +280,23 @@ package raster_pkg;
     logic [TestWidth-1:0] [QuadMaskBits-1:0] passed;
     logic [TestSamples-1:0] [CodeBits-1:0] depth;
   } tested_beat_t;
+
+  // early_z -> interpolator: a quad, an attribute, and their triangle
+  typedef struct packed {
+    logic [QuadMaskBits-1:0] mask;
+    edge_t [1:0] e;
+    step_t [1:0] a;
+    step_t [1:0] b;
+    edge_t area2;
+    logic [2:0] [FloatBits-1:0] q;
+    attribute_t [VertexValues-1:0] value;
+  } attribute_quad_t;
+
+  // interpolator -> fragment shader: the attribute at the pixels of the quad
+  typedef struct packed {
+    attribute_t [QuadValues-1:0] value;
+    logic [QuadMaskBits-1:0] mask;
+  } shaded_quad_t;
 
   // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait
   parameter int unsigned StageCount = 8;

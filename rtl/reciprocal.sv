@@ -1,13 +1,16 @@
-// (2^63 - 1) / value, the value scaled to 32 bits with the top bit set: the reciprocal of an area.
+// (2^63 - 1) / value, the value scaled to 32 bits with the top bit set: the reciprocal of an area. In general
+// (2^(2 Width - 1) - 1) / value, the value scaled to Width bits.
 //
 // One cycle to scale, one to triple the divisor, 16 to divide by 2 bits a cycle: the quotient is there 17 cycles after
-// the value, from logic. There are 16 / Interval stages; each works Interval cycles on a value, so values must be that
-// far apart.
+// the value, from logic; in general Width / 2 + 1. There are 16 / Interval stages; each works Interval cycles on a value,
+// so values must be that far apart.
 
 module reciprocal #(
-  /// Bits of the value, 32 to 63.
+  /// Bits of the value, Width to 63.
   parameter int unsigned ValueBits = 48,
-  /// Cycles from value to value: 1, 2, 4, 8 or 16. Each doubling halves the stages.
+  /// Bits of divisor and quotient, even.
+  parameter int unsigned Width = 32,
+  /// Cycles from value to value: 1, 2, 4, 8 or 16, a divisor of Width / 2. Each doubling halves the stages.
   parameter int unsigned Interval = 1
 ) (
   input  logic                 clk_i,
@@ -18,16 +21,15 @@ module reciprocal #(
   input  logic [ValueBits-1:0] value_i,
   // Goes along with the value.
   input  logic                 tag_i,
-  // Of value_i, at once: value >> shift has 32 bits.
+  // Of value_i, at once: value >> shift has Width bits.
   output logic signed [5:0]    shift_o,
 
   output logic                 valid_o,
   output logic                 tag_o,
-  output logic [31:0]          quotient_o
+  output logic [Width-1:0]     quotient_o
 );
 
-  localparam int unsigned Width = 32;
-  localparam int unsigned Steps = 16;
+  localparam int unsigned Steps = Width / 2;
   localparam int unsigned Stages = Steps / Interval;
 
   // The value moved up until its top bit is set, in steps of powers of two; leading counts how far.
@@ -37,7 +39,7 @@ module reciprocal #(
   always_comb begin
     moved   = value_i;
     leading = '0;
-    for (int k = 5; k >= 0; k--) begin
+    for (int k = $clog2(ValueBits) - 1; k >= 0; k--) begin
       if (moved >> (ValueBits - (1 << k)) == '0) begin
         moved      = moved << (1 << k);
         leading[k] = 1'b1;
@@ -61,7 +63,7 @@ module reciprocal #(
     .data_o  ({scaled_tag, scaled})
   );
 
-  // The first 31 bits of the dividend are less than any divisor: they are the first remainder.
+  // The first Width - 1 bits of the dividend are less than any divisor: they are the first remainder.
   logic             valid     [Stages+1];
   logic             tag       [Stages+1];
   logic [Width-1:0] divisor   [Stages+1];

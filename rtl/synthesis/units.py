@@ -255,6 +255,25 @@ def _z_codec() -> Unit:
     )
 
 
+def _interpolator() -> Unit:
+    # For each of four pixels three products with 1/w and two with the reciprocal; for each component of each two rises.
+    def of(bits, **more):
+        return Configuration("interpolator", {}, {"Bits": bits}, 4 * (3 + 2) + 16 * 2, **more)
+
+    return Unit(
+        "interpolator",
+        ("interpolator",),
+        (
+            of(24, measured=False),
+            of(8, measured=False),
+            Configuration("perspective_weights", {}, {"Bits": 24}, 5),
+            Configuration("perspective_weights", {}, {"Bits": 16}, 5),
+            Configuration("perspective_weights", {}, {"Bits": 8}, 5),
+            Configuration("delay_memory", {}, {"Width": 388, "Cycles": 24}),
+        ),
+    )
+
+
 def _memories() -> Unit:
     """What has to become block RAM, as the default machine has it."""
     return Unit(
@@ -303,6 +322,7 @@ UNITS = {
         _early_z(),
         _early_z_parts(),
         _z_codec(),
+        _interpolator(),
         _memories(),
         _raster_pipeline(),
     )

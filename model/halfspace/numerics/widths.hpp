@@ -42,7 +42,13 @@ namespace halfspace {
   W(TileQuads,       TileSize * TileSize / 4,                          "quads of a tile")                            \
   W(QuadIndexBits,   2 * TileLog2 - 2,                                 "a quad of the tile, in row order")           \
   W(QuadMaskBits,    4,                                                "samples of a quad: (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)") \
-  W(TestSamples,     4 * TestWidth,                                    "samples that are tested in a cycle")
+  W(TestSamples,     4 * TestWidth,                                    "samples that are tested in a cycle") \
+  W(FloatBits,       32,                                               "a float32") \
+  W(AttributeBits,   32,                                               "a component of an attribute: fixed-point with 16 bits below the point, signed") \
+  W(QuadPixels,      4,                                                "pixels of a quad") \
+  W(Components,      4,                                                "components of an attribute") \
+  W(VertexValues,    3 * Components,                                   "components at the three vertices") \
+  W(QuadValues,      QuadPixels * Components,                          "components at the four pixels of a quad")
 // clang-format on
 
 /// All widths for one choice of the parameters, which are the PACKAGE rows of the configuration's keys.

@@ -203,6 +203,7 @@ std::string raster_pkg() {
   add_signed_types<TileJob>(types);
   add_signed_types<Coverage>(types);
   add_signed_types<QuadBeat>(types);
+  add_signed_types<AttributeQuad>(types);
   text += "\n";
   for (int Widths::*width : types) {
     const std::string name(name_of(width));
@@ -222,6 +223,10 @@ std::string raster_pkg() {
   text += packed_struct<QuadBeat>("quad_beat_t", "quad_generator -> early_z: a beat of a burst");
   text += packed_struct<HiZUpdatePacket>("hi_z_update_t", "early_z -> hi_z: what is stored behind a burst");
   text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
+  text += packed_struct<AttributeQuad>("attribute_quad_t",
+                                       "early_z -> interpolator: a quad, an attribute, and their triangle");
+  text += packed_struct<ShadedQuad>("shaded_quad_t",
+                                    "interpolator -> fragment shader: the attribute at the pixels of the quad");
   text +=
       "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to "
       "wait\n";

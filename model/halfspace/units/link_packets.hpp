@@ -338,4 +338,41 @@ struct TestedBeat {
   }
 };
 
+/// early_z -> interpolator: a quad, one attribute, and what they need of their triangle.
+struct AttributeQuad {
+  std::uint8_t mask = 0;            ///< covered samples, as in QuadBeat; the others are helpers
+  std::array<std::int64_t, 2> e{};  ///< unbiased E of edges 1 and 2 at the first sample of the quad
+  std::array<std::int32_t, 2> a{};  ///< of these edges
+  std::array<std::int32_t, 2> b{};
+  std::int64_t area2 = 0;                ///< 2A, the sum of the three unbiased E: above 0
+  std::array<std::uint32_t, 3> q{};      ///< 1/w of each vertex: float32, positive and normal; the same three
+                                         ///< for what is linear in the picture
+  std::array<std::int32_t, 12> value{};  ///< component c of vertex v at 4 v + c
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = AttributeQuad;
+    visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned);
+    visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
+    visit("a", &P::a, &Widths::StepBits, Sign::kSigned);
+    visit("b", &P::b, &Widths::StepBits, Sign::kSigned);
+    visit("area2", &P::area2, &Widths::EdgeBits, Sign::kSigned);
+    visit("q", &P::q, &Widths::FloatBits, Sign::kUnsigned);
+    visit("value", &P::value, &Widths::AttributeBits, Sign::kSigned, &Widths::VertexValues);
+  }
+};
+
+/// interpolator -> fragment shader: the attribute at the four pixels of the quad, helpers included.
+struct ShadedQuad {
+  std::array<std::int32_t, 16> value{};  ///< component c of pixel p at 4 p + c
+  std::uint8_t mask = 0;
+
+  template <class Visit>
+  static constexpr void fields(Visit&& visit) {
+    using P = ShadedQuad;
+    visit("value", &P::value, &Widths::AttributeBits, Sign::kSigned, &Widths::QuadValues);
+    visit("mask", &P::mask, &Widths::QuadMaskBits, Sign::kUnsigned);
+  }
+};
+
 }  // namespace halfspace

@@ -1,0 +1,10 @@
+raster_pkg.sv
+credits.sv
+memory_fifo.sv
+credit_fifo.sv
+pipe_register.sv
+delay_memory.sv
+reciprocal_stage.sv
+reciprocal.sv
+perspective_weights.sv
+interpolator.sv
