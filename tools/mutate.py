@@ -73,6 +73,12 @@ GROUPS = {
     "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
     "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
     "z_late": Group("early_z", ["late2", "late16", "t4", "late_least"], ["--bursts", "32000"], ["z_late_writes"]),
+    "interpolator": Group(
+        "interpolator",
+        ["b24", "b12", "b8_f2"],
+        ["--tiles", "6000"],
+        ["interpolator", "perspective_weights", "delay_memory"],
+    ),
     "z_codec": Group(
         "z_codec",
         ["t4_p1", "t8_p2"],

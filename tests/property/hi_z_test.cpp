@@ -16,6 +16,7 @@ Config random_hi_z(Random& random) {
   while (true) {
     Config config = random_config(random);
     config.hi_z.enabled = true;
+    config.raster.conservative = Conservative::kOff;  // with hi_z it is refused
     config.hi_z.bits = pick(random, {4, 5, 8, 12, 16, 24, 32, 32});
     config.hi_z.lag = pick(random, {1, 2, 3, 8, 20, 64, 128, 1024});
     try {

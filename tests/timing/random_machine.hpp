@@ -44,6 +44,12 @@ inline Config random_config(Random& random) {
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
   config.hi_z.fifo = mostly_small(random, 4, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
+  if (config.depth.interpolator == DepthInterpolator::kBarycentric && !config.hi_z.enabled &&
+      config.raster.sub_pixel_bits == 8) {
+    config.raster.conservative =
+        pick(random, {Conservative::kOff, Conservative::kOuter, Conservative::kInner});
+    config.raster.uncertainty = pick(random, {0, 1, 2, 128});
+  }
   config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite, LateZ::kLate});
   config.late_z.queue = mostly_small(random, 1, 64);
   config.late_z.latency = pick(random, {1, 2, 10, 100, 200, 3000});
@@ -104,6 +110,8 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.hi_z.bits = recorded.hi_z.bits;
     config.hi_z.lag = recorded.hi_z.lag;
     config.setup.fill_rule = recorded.setup.fill_rule;
+    config.raster.conservative = recorded.raster.conservative;
+    config.raster.uncertainty = recorded.raster.uncertainty;
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z.mode = recorded.late_z.mode;
     config.late_z.discard = recorded.late_z.discard;

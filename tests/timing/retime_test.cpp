@@ -124,6 +124,8 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
   Retimer retimer(record_frame(random_frame(random), Config{}));
   const std::pair<const char*, const char*> changes[] = {{"tile_walker.tile_size", "16"},
                                                          {"raster.sub_pixel_bits", "7"},
+                                                         {"raster.conservative", "outer"},
+                                                         {"raster.uncertainty", "2"},
                                                          {"setup.fill_rule", "top_right"},
                                                          {"block_walker.block_size", "16"},
                                                          {"block_walker.trivial_reject", "false"},

@@ -40,8 +40,8 @@ TEST_CASE("config: no key takes a value outside its list, and the error says all
     for (const char* value : {"0", "-1", "3.5", "", " ", "8 ", "0x8", "1e3", "99999", "99999999999999999999",
                               "TRUE", "yes", "Plane"}) {
       CAPTURE(key.name, value);
-      if (key.legal == "0 to 1" && value == std::string("0")) {
-        continue;  // a share of nothing
+      if (key.legal.starts_with("0 to ") && value == std::string("0")) {
+        continue;
       }
       std::string meant;
       for (const auto& [capitals, name] : {std::pair{"TRUE", "true"}, std::pair{"Plane", "plane"}}) {

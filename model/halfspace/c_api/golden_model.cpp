@@ -50,6 +50,9 @@ ChainContext& GoldenModel::context() {
     return *context_;
   }
   validate(config_);
+  if (config_.raster.conservative != Conservative::kOff) {
+    throw InputError("configuration key 'raster.conservative' is on; legal for the golden model: off");
+  }
   auto context = std::make_unique<ChainContext>();
   context->widths = widths(config_);
   context->interpolator = config_.depth.interpolator;

@@ -43,6 +43,9 @@ reference::Options options_of(const ReferenceRequest& request, const Config& con
   options.method = request.method;
   options.rule = tie_rule(config);
   options.subpixel_bits = config.raster.sub_pixel_bits;
+  if (config.raster.conservative != Conservative::kOff) {
+    throw OptionError("raster.conservative is on; legal with --reference: off");
+  }
   if (config.late_z.mode == LateZ::kLate) {
     throw OptionError("late_z.mode is 'late'; legal with --reference: opaque, no_write");
   }

@@ -70,7 +70,9 @@ DepthFormat format_of(const std::string& text) {
 stress::Precision precision_of(const StressCommand& command, const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .format = format_of(command.depth),
-          .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft)};
+          .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft),
+          .conservative = config.raster.conservative,
+          .uncertainty = config.raster.uncertainty};
 }
 
 stress::CampaignPlan plan_of(const StressCommand& command, const Config& config) {
@@ -82,7 +84,15 @@ stress::CampaignPlan plan_of(const StressCommand& command, const Config& config)
   const auto add = [&](std::span<const stress::Family> list, bool unasked) {
     const auto& wanted = command.families;
     for (const stress::Family& family : list) {
-      if (wanted.empty() ? unasked : std::ranges::find(wanted, family.name) != wanted.end()) {
+      const bool asked = wanted.empty() ? unasked : std::ranges::find(wanted, family.name) != wanted.end();
+      const bool legal = config.raster.conservative == Conservative::kOff || stress::is_unclipped(family);
+      if (asked && !legal && !wanted.empty()) {
+        throw OptionError(fmt::format(
+            "--family is {}, whose triangles are clipped; legal with raster.conservative: families that are "
+            "not",
+            family.name));
+      }
+      if (asked && legal) {
         plan.families.push_back(&family);
       }
     }
@@ -170,6 +180,13 @@ ExitStatus stress_command(const StressCommand& command) {
   command.rtl.apply(options);
   options.watch.core = command.core.core();
   const Config config = command.machine.config();
+  if (config.raster.conservative != Conservative::kOff &&
+      (command.exhaustive || command.units || command.sharpness || command.reports ||
+       command.engine.starts_with("reference:") || command.engine.starts_with("wrong:"))) {
+    throw OptionError(
+        "raster.conservative is on; legal off: with --exhaustive, --exhaustive-units, --sharpness, --reports "
+        "and engines reference:NAME and wrong:NAME, which are of pixel centres");
+  }
   if (command.exhaustive || command.units) {
     return exhaustive_command(command, fidelity, config, options);
   }

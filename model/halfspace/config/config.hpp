@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/config/keys.hpp"
+#include "halfspace/numerics/conservative.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 

@@ -29,6 +29,11 @@
   BEGIN(raster)                                                                                              \
     PACKAGE(raster., sub_pixel_bits, int, 8, range(4, 8), "bits", function,                                  \
         "fraction bits of a snapped window coordinate", SubPixelBits, HALFSPACE_SUB_PIXEL_BITS)              \
+    KEY(raster., conservative, Conservative, Conservative::kOff, one_of("off", "outer", "inner"), "",        \
+        function, "which pixels a triangle has: off = whose centre it covers, outer = that it touches, "     \
+        "inner = that it fills")                                                                             \
+    KEY(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                                 \
+        "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel") \
   END(raster)                                                                                                \
   BEGIN(setup)                                                                                               \
     MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \

@@ -98,6 +98,10 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (reader != nullptr && reader->wants_tiles()) {
     return "a timeline";
   }
+  if (config.raster.conservative != Conservative::kOff) {
+    return config.raster.conservative == Conservative::kOuter ? "raster.conservative = outer"
+                                                              : "raster.conservative = inner";
+  }
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }

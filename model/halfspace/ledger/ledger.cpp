@@ -8,6 +8,7 @@
 
 #include "halfspace/core/functional.hpp"
 #include "halfspace/ledger/fates.hpp"
+#include "halfspace/machine/draw_state.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/scene/front_end.hpp"
 
@@ -16,14 +17,14 @@ namespace {
 
 /// What the front end makes of the triangles of a draw; those that go on are counted behind it.
 void account_front_end(TriangleAccount& account, const Frame& frame, const Command& draw, DepthFormat format,
-                       int sub_pixel_bits) {
+                       const Config& config) {
   const std::uint32_t triangles = draw.index_count / 3;
   account.all = triangles;
   if (draw.has(Flag::kNotFilled)) {
     account.not_filled = triangles;
     return;
   }
-  const FrontEnd front_end(frame, draw, format, sub_pixel_bits);
+  const FrontEnd front_end(frame, draw, format, config.raster.sub_pixel_bits, square_reach(config));
   FrontEndCounters counters;
   std::vector<ScreenTriangle> pieces;
   for (std::uint32_t i = 0; i < triangles; ++i) {
@@ -191,8 +192,7 @@ Ledger make_ledger(const Frame& frame, const Config& config, const FrameResult& 
         DrawLedger{.command = draw.command, .surface = draw.surface, .accounts = fates[i]});
     const bool has_depth = draw.surface != kNoSurface;
     account_front_end(line.accounts.triangles, frame, frame.commands[draw.command],
-                      has_depth ? counted.surfaces[draw.surface].format : DepthFormat::kNone,
-                      config.raster.sub_pixel_bits);
+                      has_depth ? counted.surfaces[draw.surface].format : DepthFormat::kNone, config);
     account_traffic(line.accounts, draw.counters.early_z, plain.draws.at(i).counters.early_z,
                     has_depth ? places[draw.surface].line_bytes : 0);
     ledger.frame += line.accounts;

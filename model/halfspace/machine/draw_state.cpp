@@ -45,6 +45,10 @@ PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
   return rect;
 }
 
+int square_reach(const Config& config) {
+  return square_reach(config.raster.conservative, config.raster.uncertainty, config.raster.sub_pixel_bits);
+}
+
 WalkerConfig walker_config(const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .block_size = config.block_walker.block_size,
@@ -89,6 +93,8 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
           .fill_rule = rule,
+          .conservative = config.raster.conservative,
+          .square_reach = square_reach(config),
           .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
           .depth_format = format,
           .limits = depth_limits(draw, format),
@@ -111,7 +117,8 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
                     .func = draw.depth_func,
                     .format = format,
                     .interpolator = config.depth.interpolator,
-                    .sub_pixel_bits = config.raster.sub_pixel_bits};
+                    .sub_pixel_bits = config.raster.sub_pixel_bits,
+                    .square_reach = square_reach(config)};
   state.late = state.write && mode == LateZ::kLate && touches_depth(state);
   return state;
 }

@@ -27,6 +27,9 @@ DepthLimits depth_limits(const Command& draw, DepthFormat format);
 
 WalkerConfig walker_config(const Config& config);
 
+/// That of all draws, see numerics/conservative.hpp; clears have none.
+int square_reach(const Config& config);
+
 /// That of the draw, or that of all draws where the configuration has one.
 FillRule fill_rule(const Command& draw, const Config& config);
 

@@ -16,6 +16,12 @@ double tiny_limit(const std::array<double, 3>& z) {
   return std::ldexp(1.0, std::ilogb(largest) + 1 - 32);
 }
 
+/// The depths between those of the vertices, as far as they are in `limits`.
+DepthRange range_within(const std::array<double, 3>& z, const DepthRange& limits) {
+  const auto [least, most] = std::minmax({z[0], z[1], z[2]});
+  return {std::clamp(least, limits.least, limits.most), std::clamp(most, limits.least, limits.most)};
+}
+
 /// The pieces of one triangle.
 class Pieces {
  public:
@@ -89,14 +95,20 @@ bool may_be_tiny(const std::array<double, 3>& z, const DepthRange& limits) {
   return least < limit && most > -limit;
 }
 
-void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
+void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& limits,
               DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out) {
   const DepthPlaneRows plane(triangle.v, z, grid.sub_pixel_bits);
-  const PixelRect box = intersect(sample_bounds(triangle.v, grid.sub_pixel_bits), grid.screen);
+  const bool by_squares = grid.square_reach != 0;
+  const PixelRect box =
+      intersect(sample_bounds(triangle.v, grid.sub_pixel_bits, grid.square_reach), grid.screen);
+  const DepthRange range = by_squares ? range_within(z, limits) : limits;
   Pieces pieces(triangle, out);
   const PixelRun row{box.x_first, box.x_last};
+  for (std::int32_t y = box.y_first; by_squares && !plane.has_area() && y <= box.y_last; ++y) {
+    pieces.add(row, y, vertex_depth_code(format, std::clamp(z[0], limits.least, limits.most)));
+  }
   for (std::int32_t y = box.y_first; plane.has_area() && y <= box.y_last; ++y) {
-    const PixelRun covered = plane.covered(y, row);
+    const PixelRun covered = by_squares ? row : plane.covered(y, row);
     if (covered.empty()) {
       continue;
     }

@@ -31,14 +31,16 @@ struct DepthRange {
 /// What is drawn where: the grid of sub-pixels and the pixels of the target.
 struct SampleGrid {
   int sub_pixel_bits;
+  int square_reach;  ///< as numerics/conservative.hpp has it
   PixelRect screen;
 };
 
 /// True where a float32 triangle may have tiny depths within `limits`: one vertex is far less than another.
 bool may_be_tiny(const std::array<double, 3>& z, const DepthRange& limits);
 
-/// Appends pieces of the triangle. `z` is that of the vertices, one of them far, with polygon offset.
-void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& range,
+/// Appends pieces of the triangle. `z` is that of the vertices, one of them far, with polygon offset. Outer
+/// pixels whose centres are outside have the plane's depth there, within that of the vertices.
+void emit_far(const ScreenTriangle& triangle, const std::array<double, 3>& z, const DepthRange& limits,
               DepthFormat format, const SampleGrid& grid, std::vector<ScreenTriangle>& out);
 
 /// Appends the triangle of a float32 surface as it is, or in pieces where it has tiny depths; returns whether

@@ -25,11 +25,13 @@ double far_depth(const DepthRange& range) {
 
 }  // namespace
 
-FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits)
+FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
+                   int square_reach)
     : frame_(frame),
       draw_(draw),
       format_(format),
       sub_pixel_bits_(sub_pixel_bits),
+      square_reach_(square_reach),
       sub_pixels_(1 << sub_pixel_bits),
       screen_({.x_last = static_cast<std::int32_t>(frame.targets[draw.target].width) - 1,
                .y_last = static_cast<std::int32_t>(frame.targets[draw.target].height) - 1}),
@@ -137,7 +139,8 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
         depth = std::clamp(depth, z_least_, z_most_);  // clipped to it, up to rounding
       }
     }
-    const SampleGrid grid{.sub_pixel_bits = sub_pixel_bits_, .screen = screen_};
+    const SampleGrid grid{
+        .sub_pixel_bits = sub_pixel_bits_, .square_reach = square_reach_, .screen = screen_};
     double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
     const auto is_far = [this](double depth) { return !(std::abs(depth) < far_); };
     if (is_far(offset) || std::ranges::any_of(z, is_far)) {
@@ -161,7 +164,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       for (double& depth : z) {
         depth = static_cast<float>(depth);
       }
-      if (may_be_tiny(z, limits_)) {
+      if (square_reach_ == 0 && may_be_tiny(z, limits_)) {  // else no plane is interpolated
         counters.tiny_depth += emit_tiny(triangle, z, grid, out) ? 1 : 0;
         counters.emitted += out.size() - before;
         return;

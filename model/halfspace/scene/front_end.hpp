@@ -24,8 +24,10 @@ namespace halfspace {
 /// The front end of one draw.
 class FrontEnd {
  public:
-  /// `format` is that of the surface the draw tests against; none leaves z at 0.
-  FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits);
+  /// `format` is that of the surface the draw tests against; none leaves z at 0. `square_reach`: as
+  /// numerics/conservative.hpp has it.
+  FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
+           int square_reach = 0);
 
   /// Window z is z / w * scale + bias, and lies between least and most.
   struct Depth {
@@ -57,6 +59,7 @@ class FrontEnd {
   const Command& draw_;
   DepthFormat format_;
   int sub_pixel_bits_;
+  int square_reach_;
   double sub_pixels_;
   PixelRect screen_;  ///< the target
   bool depth_clamp_;

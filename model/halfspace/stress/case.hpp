@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/numerics/conservative.hpp"
 #include "halfspace/reference/exact_triangle.hpp"
 #include "halfspace/scene/frame.hpp"
 
@@ -17,6 +18,8 @@ struct Precision {
   int sub_pixel_bits = 8;
   DepthFormat format = DepthFormat::kUnorm24;
   reference::TieRule rule = reference::TieRule::kTopLeft;  ///< of all draws
+  Conservative conservative = Conservative::kOff;          ///< which pixels triangles have
+  int uncertainty = 0;                                     ///< of these, in sub-pixels
 };
 
 /// For people: "8 sub-pixel bits, unorm24, fill rule top_left".

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -44,6 +45,11 @@ constexpr std::array kFamilies{
 
 std::span<const Family> families() { return kFamilies; }
 
+bool is_unclipped(const Family& family) {
+  static constexpr std::array kClipped{cut_mesh, far_fan, beyond_band, extreme_w, grazer};
+  return family.report.empty() && std::ranges::find(kClipped, family.make) == kClipped.end();
+}
+
 const Family& family_of(std::string_view name) {
   std::string names;
   for (const std::span<const Family> list : {families(), reports()}) {
@@ -62,8 +68,13 @@ std::string to_text(const Precision& precision) {
   for (const reference::TieRuleInfo& info : reference::kTieRules) {
     rule = info.rule == precision.rule ? info.name : rule;
   }
-  return fmt::format("{} sub-pixel bits, {}, fill rule {}", precision.sub_pixel_bits, name(precision.format),
-                     rule);
+  const std::string pixels =
+      precision.conservative == Conservative::kOff
+          ? fmt::format("fill rule {}", rule)
+          : fmt::format("{} pixels, uncertainty {}",
+                        precision.conservative == Conservative::kOuter ? "outer" : "inner",
+                        precision.uncertainty);
+  return fmt::format("{} sub-pixel bits, {}, {}", precision.sub_pixel_bits, name(precision.format), pixels);
 }
 
 Case make_case(const Family& family, const Precision& precision, std::uint64_t seed, std::uint64_t index) {

@@ -19,6 +19,10 @@ struct Family {
   std::string_view suspect = {};  ///< the rasterizer, wrong or textbook, that does what is reported there
 };
 
+/// Of its cases the definition names every triangle that has a pixel, so that they may be drawn
+/// conservatively: none leaves clipping in several pieces, or as an edge of itself.
+bool is_unclipped(const Family& family);
+
 /// Those of the campaign.
 std::span<const Family> families();
 

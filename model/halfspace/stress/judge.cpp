@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "halfspace/reference/pixel_square.hpp"
 #include "halfspace/stress/depth_bound.hpp"
 #include "halfspace/stress/exact_plane.hpp"
 
@@ -12,6 +13,19 @@ namespace halfspace::stress {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+/// Whether the triangle has the pixel, by the definition of what pixels triangles have.
+bool has_pixel(const reference::GridTriangle& triangle, std::int64_t x, std::int64_t y,
+               const Precision& precision) {
+  if (precision.conservative == Conservative::kOff) {
+    return reference::covers(triangle, reference::pixel_centre(x, y, precision.sub_pixel_bits),
+                             precision.rule);
+  }
+  const reference::PixelSquare square =
+      reference::pixel_square(x, y, precision.sub_pixel_bits, precision.uncertainty);
+  return precision.conservative == Conservative::kOuter ? reference::touches(triangle, square)
+                                                        : reference::fills(triangle, square);
+}
 
 /// What the definition says of the known triangles.
 struct Definition {
@@ -30,13 +44,18 @@ Definition define(const Case& made, const Precision& precision) {
     const reference::GridTriangle& v = triangle.grid;
     const auto [left, right] = std::minmax({v[0].x, v[1].x, v[2].x});
     const auto [top, bottom] = std::minmax({v[0].y, v[1].y, v[2].y});
+    // An outer pixel may lie beside the box.
+    const std::int64_t beside =
+        precision.conservative == Conservative::kOuter ? std::int64_t{1} << precision.sub_pixel_bits : 0;
     const auto pixel = [&](std::int64_t position, std::uint32_t size) {
       return std::clamp<std::int64_t>(position >> precision.sub_pixel_bits, 0, std::int64_t{size} - 1);
     };
-    for (std::int64_t y = pixel(top, target.height); y <= pixel(bottom, target.height); ++y) {
-      for (std::int64_t x = pixel(left, target.width); x <= pixel(right, target.width); ++x) {
+    for (std::int64_t y = pixel(top - beside, target.height); y <= pixel(bottom + beside, target.height);
+         ++y) {
+      for (std::int64_t x = pixel(left - beside, target.width); x <= pixel(right + beside, target.width);
+           ++x) {
         ++result.samples;
-        if (reference::covers(v, reference::pixel_centre(x, y, precision.sub_pixel_bits), precision.rule)) {
+        if (has_pixel(v, x, y, precision)) {
           const auto at = static_cast<std::size_t>(y * target.width + x);
           ++result.fragments[at];
           result.last[at] = i;
@@ -50,6 +69,14 @@ Definition define(const Case& made, const Precision& precision) {
 void count(std::int32_t expected, std::uint32_t got, Tally& tally) {
   const std::int64_t more = std::int64_t{got} - expected;
   (more > 0 ? tally.extra : tally.missing) += static_cast<std::uint64_t>(std::abs(more));
+}
+
+/// Whether depth is that of the plane at the centre of a pixel. Where an outer pixel's centre is not covered,
+/// it is that of some point of the triangle.
+bool is_of_centre(const reference::GridTriangle& triangle, const reference::GridPoint& centre,
+                  const Precision& precision) {
+  const reference::PixelSquare point{.least = centre, .most = centre};
+  return precision.conservative != Conservative::kOuter || reference::fills(triangle, point);
 }
 
 /// Calls visit(pixel, error, bound) for each depth that the definition knows.
@@ -70,7 +97,13 @@ void each_depth(const Case& made, const Precision& precision, const DepthLaw& la
             .first->second;
     const reference::GridPoint sample =
         reference::pixel_centre(at % picture.width, at / picture.width, precision.sub_pixel_bits);
-    const ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at]);
+    if (!plane.has_area()) {
+      continue;
+    }
+    ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at]);
+    if (!is_of_centre(triangle.grid, sample, precision)) {
+      error.ulps = error.beyond;
+    }
     const double bound =
         law.bound ? *law.bound : depth_bound(precision.format, law.interpolator, triangle.z, plane, error);
     visit(at, error, bound);
@@ -108,9 +141,7 @@ void judge_decisions(const Case& made, const Precision& precision, const Picture
          ++y) {
       for (std::uint32_t x = decision.tile_x * size;
            x < std::min((decision.tile_x + 1) * size, picture.width); ++x) {
-        const bool covered = reference::covers(
-            triangle.grid, reference::pixel_centre(x, y, precision.sub_pixel_bits), precision.rule);
-        sound &= covered != rejected;
+        sound &= has_pixel(triangle.grid, x, y, precision) != rejected;
       }
     }
     ++tally.decisions;
@@ -165,7 +196,8 @@ Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, c
       if (some_culled && picture.fragments[at] < static_cast<std::uint32_t>(definition.fragments[at])) {
         continue;
       }
-      count(made.partition ? 1 : definition.fragments[at], picture.fragments[at], tally);
+      const bool once = made.partition && precision.conservative == Conservative::kOff;
+      count(once ? 1 : definition.fragments[at], picture.fragments[at], tally);
     }
     if (made.depth) {
       judge_depth(made, precision, law, definition, picture, tally);
@@ -173,6 +205,9 @@ Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, c
     if (!made.depth) {  // a triangle whose depth is resolved sample by sample is decided piece by piece
       judge_decisions(made, precision, picture, tally);
     }
+  }
+  if (precision.conservative != Conservative::kOff) {
+    return tally;  // the other laws are of centres
   }
   for (std::size_t at = 0; at < made.fragments.size(); ++at) {
     if (made.fragments[at] != kUncertain) {

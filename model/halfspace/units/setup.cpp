@@ -27,28 +27,29 @@ void rotate_to_first(std::array<ScreenVertex, 3>& v) {
 
 }  // namespace
 
-PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits) {
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach) {
   const auto [x_min, x_max] = std::minmax({v[0].x, v[1].x, v[2].x});
   const auto [y_min, y_max] = std::minmax({v[0].y, v[1].y, v[2].y});
   const std::int32_t half = 1 << (sub_pixel_bits - 1);
   // centre of pixel p is p * 2^s + half: first = ceil((min - half) / 2^s), last = floor((max - half) / 2^s)
-  return {.x_first = (x_min + half - 1) >> sub_pixel_bits,
-          .y_first = (y_min + half - 1) >> sub_pixel_bits,
-          .x_last = (x_max - half) >> sub_pixel_bits,
-          .y_last = (y_max - half) >> sub_pixel_bits};
+  return {.x_first = (x_min - reach + half - 1) >> sub_pixel_bits,
+          .y_first = (y_min - reach + half - 1) >> sub_pixel_bits,
+          .x_last = (x_max + reach - half) >> sub_pixel_bits,
+          .y_last = (y_max + reach - half) >> sub_pixel_bits};
 }
 
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out) {
   std::array<ScreenVertex, 3> v = in.v;
   std::int64_t area2 = twice_signed_area(v);
-  if (area2 == 0) {
+  const bool flat = area2 == 0;
+  if (flat && state.conservative != Conservative::kOuter) {
     return SetupVerdict::kZeroArea;
   }
-  const bool front = (area2 > 0) == state.front_positive_area;
+  const bool front = !flat && (area2 > 0) == state.front_positive_area;
   if (front ? state.cull_front : state.cull_back) {
     return SetupVerdict::kCulled;
   }
-  const PixelRect box = sample_bounds(v, state.sub_pixel_bits);
+  const PixelRect box = sample_bounds(v, state.sub_pixel_bits, state.square_reach);
   if (box.empty()) {
     return SetupVerdict::kNoSample;
   }
@@ -61,6 +62,10 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
     std::swap(v[1], v[2]);
     area2 = -area2;
   }
+  if (flat) {
+    v[1].z = v[2].z = v[0].z;
+    area2 = 1;  // of what has one depth it means nothing
+  }
   rotate_to_first(v);
 
   const std::int64_t centre = std::int64_t{1} << (state.sub_pixel_bits - 1);
@@ -70,8 +75,10 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
     Edge& edge = out.edge[i];
     edge.a = from.y - to.y;
     edge.b = to.x - from.x;
-    const bool owns = owns_its_samples(edge.a, edge.b, state.fill_rule);
-    edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y) - (owns ? 0 : 1);
+    const bool owns =
+        state.conservative != Conservative::kOff || owns_its_samples(edge.a, edge.b, state.fill_rule);
+    edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y) +
+             to_square(edge.a, edge.b, state.square_reach) - (owns ? 0 : 1);
     out.depth.bias[i] = owns ? 0 : 1;
   }
   out.triangle = in.triangle;

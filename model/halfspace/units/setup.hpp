@@ -5,6 +5,7 @@
 /// Rasterization", SIGGRAPH 1988.
 #pragma once
 
+#include "halfspace/numerics/conservative.hpp"
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/numerics/fill_rule.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
@@ -19,6 +20,9 @@ struct SetupState {
   bool cull_front = false;
   bool cull_back = false;
   FillRule fill_rule = FillRule::kTopLeft;
+  Conservative conservative =
+      Conservative::kOff;                         ///< not off: edges own the pixels whose squares end on them
+  int square_reach = 0;                           ///< as conservative.hpp has it
   PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
@@ -34,11 +38,14 @@ enum class SetupVerdict : std::uint8_t {
   kOutside,   ///< its bounding box misses scissor, viewport or target
 };
 
-/// The pixels whose centres lie in the closed bounding box of the triangle.
-PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits);
+/// The pixels whose centres lie in the closed bounding box of the triangle, grown by `reach` sub-pixels on
+/// each side.
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach = 0);
 
 /// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
-/// bits). Neither the order of the vertices nor which one comes first changes what is drawn or its depth.
+/// bits). A triangle without area faces back, and has pixels where they are outer ones, all with the depth of
+/// its first vertex. Neither the order of the vertices nor which one comes first changes what is drawn or its
+/// depth.
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out);
 
 }  // namespace halfspace

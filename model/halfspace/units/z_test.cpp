@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "halfspace/numerics/conservative.hpp"
 #include "halfspace/units/depth_barycentric.hpp"
 #include "halfspace/units/depth_plane.hpp"
 
@@ -64,14 +65,19 @@ void interpolate_barycentric(const SetupTriangle& triangle, const Coverage& cove
     const Edge& edge = triangle.edge[i];
     const std::int64_t steps =
         std::int64_t{edge.a} * (bit % TileSize) + std::int64_t{edge.b} * (bit / TileSize);
-    return coverage.e[i - 1] + eq.bias[i] + (steps << state.sub_pixel_bits);
+    return coverage.e[i - 1] + eq.bias[i] - to_square(edge.a, edge.b, state.square_reach) +
+           (steps << state.sub_pixel_bits);
   };
   const bool is_float = state.format == DepthFormat::kFloat32;
   const int fraction = vertex_depth_fraction(state.format);
   const std::int64_t offset = eq.offset + (std::int64_t{1} << (fraction - 1));
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
-    const std::int64_t e1 = weight_edge(1, bit);
-    const std::int64_t e2 = weight_edge(2, bit);
+    std::int64_t e1 = weight_edge(1, bit);
+    std::int64_t e2 = weight_edge(2, bit);
+    if (state.square_reach > 0) {  // the centre may be outside: depth is that of a point inside
+      e1 = std::clamp<std::int64_t>(e1, 0, eq.area2);
+      e2 = std::clamp<std::int64_t>(e2, 0, eq.area2 - e1);
+    }
     const std::int64_t stored = is_float ? std::int64_t{code_order(barycentric_float(eq, e1, e2))}
                                          : (barycentric_unorm(eq, e1, e2) + offset) >> fraction;
     codes[static_cast<std::size_t>(bit)] = static_cast<std::uint32_t>(

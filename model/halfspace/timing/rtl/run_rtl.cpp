@@ -56,6 +56,13 @@ void check_depths(const Frame& frame) {
   }
 }
 
+void check_config(const Config& config) {
+  if (config.raster.conservative != Conservative::kOff) {
+    throw OptionError(fmt::format("configuration key 'raster.conservative' is {}; legal for the RTL: off",
+                                  config.raster.conservative == Conservative::kOuter ? "outer" : "inner"));
+  }
+}
+
 /// Driver, scoreboard, sink and memory of one run.
 template <int TileSize>
 class RtlRun final : public PortListener {
@@ -108,6 +115,7 @@ class RtlRun final : public PortListener {
 RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions& options,
                   VerilatedPipeline& pipeline) {
   check_options(options);
+  check_config(config);
   check_depths(frame);
   RtlResult result;
   RunState run(frame, config, options, pipeline, result.report);
