@@ -59,6 +59,7 @@ class StepSink {
     }
     steps_.push_back(step);
   }
+  static void pass() {}
 
  private:
   /// The tiles that hold a covered sample of the bounds.

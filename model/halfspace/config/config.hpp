@@ -10,6 +10,7 @@
 #include "halfspace/config/keys.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/walk_order.hpp"
 
 namespace halfspace {
 
