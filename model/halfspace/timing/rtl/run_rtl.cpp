@@ -23,18 +23,6 @@ void check_options(const EngineOptions& options) {
   }
 }
 
-void check_walk(const Config& config) {
-  if (config.block_walker.levels != 2) {
-    throw OptionError(fmt::format("configuration key 'block_walker.levels' is {}; legal for the RTL: 2",
-                                  config.block_walker.levels));
-  }
-  if (config.block_walker.order != WalkOrder::kRaster || config.tile_walker.order != TileOrder::kRaster) {
-    throw OptionError(fmt::format(
-        "configuration key '{}' is another; legal for the RTL: raster",
-        config.block_walker.order != WalkOrder::kRaster ? "block_walker.order" : "tile_walker.order"));
-  }
-}
-
 void check_size(const Frame& frame, const RunState& run) {
   const std::uint32_t tiles = run.places.empty() ? 0 : run.places.back().first_tile + run.places.back().tiles;
   const int size = run.config.tile_walker.tile_size;
@@ -121,7 +109,6 @@ RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions&
                   VerilatedPipeline& pipeline) {
   check_options(options);
   check_depths(frame);
-  check_walk(config);
   RtlResult result;
   RunState run(frame, config, options, pipeline, result.report);
   check_size(frame, run);
