@@ -133,6 +133,11 @@ study-precision: build/release/build.ninja $(PLOT_TOOLS) ## Measure the arithmet
 	  .venv/bin/python tools/plot_precision.py out/precision/precision.json docs/precision.json $$kind docs/images/precision_$$kind.png; \
 	done
 
+.PHONY: study-traversal
+study-traversal: release-program $(PLOT_TOOLS) ## Run every walk of block_walker on every frame; write docs/guides/traversal.md's tables and picture.
+	tools/write_traversal.py --captured $(CAPTURED)
+	.venv/bin/python tools/plot_traversal.py out/traversal/traversal.json docs/images/traversal.png
+
 .PHONY: study-precision-gates
 study-precision-gates: $(PYTHON_TOOLS) ## Synthesize these arithmetics, as far as docs/precision.json has no figures of them; takes half an hour in all.
 	.venv/bin/python rtl/synth_study.py --json docs/precision.json

@@ -14,11 +14,16 @@
 
 module block_edge
   import raster_pkg::*;
+  import walk_pkg::*;
 #(
   /// 0: no tile is found to be outside.
   parameter bit TrivialReject = 1'b1,
   /// 1: samples_i counts.
-  parameter bit SampleReject = 1'b0
+  parameter bit SampleReject = 1'b0,
+  /// What a step decides and in which order. Only levels of 2 in raster order follow row_end_i, the others move_i.
+  parameter int unsigned Levels = 2,
+  parameter int unsigned Order = RasterWalk,
+  localparam int unsigned RowLog2 = BlockLog2 - TileLog2
 ) (
   input  logic                  clk_i,
 
@@ -34,6 +39,11 @@ module block_edge
 
   input  logic                  advance_i, // to the next block, at the end of the cycle
   input  logic                  row_end_i, // the block is the last of its row
+  input  walk_move_t            move_i,
+  // With one level only this tile is tested, and all of outside_o are it; with three levels blocks of a superblock.
+  input  logic [RowLog2-1:0]    tile_x_i,
+  input  logic [RowLog2-1:0]    tile_y_i,
+  input  logic                  superblock_i,
 
   output edge_t                 edge_o,    // at the block's top left sample
   output step_t                 a_o,
@@ -56,28 +66,56 @@ module block_edge
     end
   end
 
-  // The value at the block, and at the first block of its row.
-  pixel_edge_t here_q, row_q;
-  pixel_edge_t loaded, along, down, next;
+  // The value at the block.
+  pixel_edge_t here, loaded;
 
   assign loaded = edge_i[EdgeBits-1:SubPixelBits];
-  assign along  = here_q + (pixel_edge_t'(a_q) <<< BlockLog2);
-  assign down   = row_q + (pixel_edge_t'(b_q) <<< BlockLog2);
-  assign next   = row_end_i ? down : along;
 
-  always_ff @(posedge clk_i) begin
-    if (load_i) begin
-      here_q <= loaded;
-      row_q  <= loaded;
-    end else if (advance_i) begin
-      here_q <= next;
-      if (row_end_i) begin
-        row_q <= next;
+  if (Levels == 2 && Order == RasterWalk) begin : gen_raster
+    // And at the first block of its row.
+    pixel_edge_t here_q, row_q;
+    pixel_edge_t along, down, next;
+
+    assign along = here_q + (pixel_edge_t'(a_q) <<< BlockLog2);
+    assign down  = row_q + (pixel_edge_t'(b_q) <<< BlockLog2);
+    assign next  = row_end_i ? down : along;
+
+    always_ff @(posedge clk_i) begin
+      if (load_i) begin
+        here_q <= loaded;
+        row_q  <= loaded;
+      end else if (advance_i) begin
+        here_q <= next;
+        if (row_end_i) begin
+          row_q <= next;
+        end
       end
     end
+    assign here = here_q;
+
+    logic unused_move;
+    assign unused_move = ^move_i;
+  end else begin : gen_walk
+    walk_value #(
+      .Width     (PixelEdgeBits),
+      .SlopeBits (StepBits),
+      .Jumps     (jumps(Levels, Order))
+    ) u_value (
+      .clk_i     (clk_i),
+      .load_i    (load_i),
+      .value_i   (loaded),
+      .dx_i      (a_q),
+      .dy_i      (b_q),
+      .advance_i (advance_i),
+      .move_i    (move_i),
+      .value_o   (here)
+    );
+
+    logic unused_row_end;
+    assign unused_row_end = row_end_i;
   end
 
-  assign edge_o = {here_q, sub_pixel_q};
+  assign edge_o = {here, sub_pixel_q};
   assign a_o    = a_q;
   assign b_o    = b_q;
 
@@ -133,14 +171,59 @@ module block_edge
       end
     end
 
-    for (genvar y = 0; y < RowTiles; y++) begin : gen_row
-      pixel_edge_t first;
-      assign first = here_q + pixel_edge_t'(down_q[y]);
-      for (genvar x = 0; x < RowTiles; x++) begin : gen_tile
-        assign outside_o[y*RowTiles+x] =
-            first + pixel_edge_t'(across_q[x]) < $signed(PixelEdgeBits'(0))
-            && (TrivialReject || samples_q);
+    if (Levels == 1) begin : gen_one
+      pixel_edge_t largest;
+      assign largest   = here + pixel_edge_t'(down_q[tile_y_i]) + pixel_edge_t'(across_q[tile_x_i]);
+      assign outside_o = {BlockTiles{largest[PixelEdgeBits-1]}};
+    end else begin : gen_all
+      // Blocks lie as many times farther apart than tiles as a block has tiles, and are as many times larger.
+      pixel_edge_t down [RowTiles];
+      pixel_edge_t across [RowTiles];
+
+      if (Levels == 3) begin : gen_superblock
+        localparam int unsigned BlocksDownBits = DownBits + RowLog2;
+        typedef logic signed [BlocksDownBits-1:0] blocks_down_t;
+
+        blocks_down_t to_largest_block, blocks_down_q [RowTiles];
+        sum_t         rising;
+        assign rising = (a_i[StepBits-1] ? '0 : sum_t'(a_i)) + (b_i[StepBits-1] ? '0 : sum_t'(b_i));
+        assign to_largest_block = (blocks_down_t'(rising) <<< BlockLog2) - blocks_down_t'(rising);
+
+        for (genvar i = 0; i < RowTiles; i++) begin : gen_steps
+          localparam logic [BlockLog2-1:0] Tile = BlockLog2'(i * TileSize);
+          always_ff @(posedge clk_i) begin
+            if (load_i) begin
+              blocks_down_q[i] <= (blocks_down_t'(steps(b_i, Tile)) <<< RowLog2) + to_largest_block;
+            end
+          end
+          assign down[i]   = superblock_i ? pixel_edge_t'(blocks_down_q[i])
+                                          : pixel_edge_t'(down_q[i]);
+          assign across[i] = pixel_edge_t'(across_q[i]) <<< (superblock_i ? RowLog2 : 0);
+        end
+      end else begin : gen_block
+        for (genvar i = 0; i < RowTiles; i++) begin : gen_steps
+          assign down[i]   = pixel_edge_t'(down_q[i]);
+          assign across[i] = pixel_edge_t'(across_q[i]);
+        end
       end
+
+      for (genvar y = 0; y < RowTiles; y++) begin : gen_row
+        pixel_edge_t first;
+        assign first = here + down[y];
+        for (genvar x = 0; x < RowTiles; x++) begin : gen_tile
+          assign outside_o[y*RowTiles+x] =
+              first + across[x] < $signed(PixelEdgeBits'(0)) && (TrivialReject || samples_q);
+        end
+      end
+    end
+
+    if (Levels != 1) begin : gen_no_tile
+      logic unused_tile;
+      assign unused_tile = ^{tile_x_i, tile_y_i};
+    end
+    if (Levels != 3) begin : gen_no_superblock
+      logic unused_superblock;
+      assign unused_superblock = superblock_i;
     end
 
     if (!SampleReject) begin : gen_unused
@@ -151,7 +234,7 @@ module block_edge
     assign outside_o = '0;
 
     logic unused_samples;
-    assign unused_samples = ^{samples_i, x_i, y_i};
+    assign unused_samples = ^{samples_i, x_i, y_i, tile_x_i, tile_y_i, superblock_i};
   end
 
 endmodule

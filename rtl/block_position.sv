@@ -26,17 +26,12 @@ module block_position
   output logic [BlockTiles-1:0]     touched_o
 );
 
-  localparam int unsigned RowTiles = BlockSize / TileSize;
-
   typedef logic [BlockCoordBits-1:0] block_coord_t;
-  typedef logic [BlockLog2-1:0] pixel_t;
-  typedef logic [BlockLog2-TileLog2-1:0] place_t; // of a tile in its block
-  typedef logic [RowTiles-1:0] row_t;
 
   // A pixel coordinate, taken apart.
   typedef struct packed {
-    block_coord_t block;
-    pixel_t       pixel; // in the block
+    block_coord_t         block;
+    logic [BlockLog2-1:0] pixel; // in the block
   } in_block_t;
 
   in_block_t    x_first_q, x_last_q, y_first_q, y_last_q;
@@ -65,23 +60,19 @@ module block_position
 
   assign block_x_o = block_x_q;
   assign block_y_o = block_y_q;
-  assign x_first_o = block_x_q == x_first_q.block ? x_first_q.pixel : '0;
-  assign x_last_o  = row_end_o ? x_last_q.pixel : '1;
-  assign y_first_o = block_y_q == y_first_q.block ? y_first_q.pixel : '0;
-  assign y_last_o  = last_row ? y_last_q.pixel : '1;
 
-  // The tiles in a row or column from first to last; RowTiles - 1 - last is ~last.
-  function automatic row_t from_to(place_t first, place_t last);
-    row_t all = '1;
-    return (all << first) & (all >> ~last);
-  endfunction
-
-  row_t columns, rows;
-  assign columns = from_to(x_first_o[BlockLog2-1:TileLog2], x_last_o[BlockLog2-1:TileLog2]);
-  assign rows    = from_to(y_first_o[BlockLog2-1:TileLog2], y_last_o[BlockLog2-1:TileLog2]);
-
-  for (genvar y = 0; y < RowTiles; y++) begin : gen_touched
-    assign touched_o[y*RowTiles+:RowTiles] = columns & {RowTiles{rows[y]}};
-  end
+  block_inside u_inside (
+    .x_first_i  (x_first_q),
+    .x_last_i   (x_last_q),
+    .y_first_i  (y_first_q),
+    .y_last_i   (y_last_q),
+    .square_x_i (block_x_q),
+    .square_y_i (block_y_q),
+    .x_first_o  (x_first_o),
+    .x_last_o   (x_last_o),
+    .y_first_o  (y_first_o),
+    .y_last_o   (y_last_o),
+    .touched_o  (touched_o)
+  );
 
 endmodule

@@ -1,9 +1,17 @@
 raster_pkg.sv
+walk_pkg.sv
 credits.sv
 memory_fifo.sv
 credit_fifo.sv
 pipe_register.sv
+ordered_pick.sv
+curve_next.sv
+curve_cells.sv
+row_cells.sv
+block_inside.sv
+block_walk.sv
 block_position.sv
+walk_value.sv
 block_edge.sv
 block_plane.sv
 block_walker.sv

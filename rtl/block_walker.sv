@@ -1,18 +1,23 @@
 // From a triangle to the blocks that it may touch, each with a mask of its tiles: one block a cycle.
 //
-// The walk visits the blocks of the bounds in row order. A step tests all tiles of a block at once, and leaves out those
+// The walk visits the blocks of the bounds in row order, or as Levels and Order say. A step tests all tiles of a block at once, and leaves out those
 // all of whose samples are outside one edge. A block that is left with no tile goes nowhere. Whether it is, shows only
 // at the end of the step, so every step waits for a slot of the output FIFO, and nothing stalls behind it. The next
 // triangle is loaded in the cycle of the last step of this one.
 
 module block_walker
   import raster_pkg::*;
+  import walk_pkg::*;
 #(
   /// Slots of the output FIFO, 2 or more, each as wide as block_job_t. A block takes two cycles to the FIFO's output, so
   /// that with 2 blocks cannot leave in every cycle.
   parameter int unsigned FifoDepth = 4,
   /// 0: every tile that the bounds touch is in the mask. Saves most of the gates.
   parameter bit TrivialReject = 1'b1,
+  /// What a step decides: 1 a tile, 2 the tiles of a block, 3 the blocks of a superblock, then the tiles of each.
+  parameter int unsigned Levels = 2,
+  /// In which order: walk_pkg.
+  parameter int unsigned Order = RasterWalk,
   /// 1: of a triangle that lies in one block and has few samples, only tiles in which one is covered are in the mask.
   parameter bit SampleReject = 1'b0,
   /// 1: the plane of depth is walked with the edges, for hi_z. 0: it is 0.
@@ -49,6 +54,11 @@ module block_walker
   if (!(RowTiles inside {2, 4, 8}) || BlockSize != 1 << BlockLog2) begin : gen_illegal_block
     $error("HALFSPACE_BLOCK_SIZE must be 2, 4 or 8 times HALFSPACE_TILE_SIZE, 8 to 64");
   end
+  if (Order > HilbertWalk || !(Levels inside {1, 2, 3}) || (Levels == 1 && SampleReject)
+      || (!TrivialReject && (Levels == 3 || Order inside {BacktrackingWalk, ZigzagWalk}))
+      || (Levels == 3 && Order inside {BacktrackingWalk, ZigzagWalk})) begin : gen_illegal_walk
+    $error("Levels and Order: docs/units/block_walker.md says which go together");
+  end
 
   logic load;
   assign load = triangle_valid_i & triangle_ready_o;
@@ -61,24 +71,79 @@ module block_walker
   logic [BlockTiles-1:0] touched;
   logic [BlockTiles-1:0] outside [EdgeCount];
 
-  block_position u_position (
-    .clk_i     (clk_i),
-    .load_i    (load),
-    .x_first_i (triangle_i.x_first),
-    .x_last_i  (triangle_i.x_last),
-    .y_first_i (triangle_i.y_first),
-    .y_last_i  (triangle_i.y_last),
-    .advance_i (step),
-    .row_end_o (row_end),
-    .last_o    (last_block),
-    .block_x_o (job_d.block_x),
-    .block_y_o (job_d.block_y),
-    .x_first_o (x_first),
-    .x_last_o  (x_last),
-    .y_first_o (y_first),
-    .y_last_o  (y_last),
-    .touched_o (touched)
-  );
+  // Of walks that are not block by block in row order.
+  localparam int unsigned RowLog2 = BlockLog2 - TileLog2;
+  logic [BlockTiles-1:0] in_all; // inside all edges: tiles, or blocks, or samples
+  logic                  pass, superblock;
+  walk_move_t            move;
+  logic [RowLog2-1:0]    tile_x, tile_y;
+
+  if (Levels == 2 && Order == RasterWalk) begin : gen_raster
+    block_position u_position (
+      .clk_i     (clk_i),
+      .load_i    (load),
+      .x_first_i (triangle_i.x_first),
+      .x_last_i  (triangle_i.x_last),
+      .y_first_i (triangle_i.y_first),
+      .y_last_i  (triangle_i.y_last),
+      .advance_i (step),
+      .row_end_o (row_end),
+      .last_o    (last_block),
+      .block_x_o (job_d.block_x),
+      .block_y_o (job_d.block_y),
+      .x_first_o (x_first),
+      .x_last_o  (x_last),
+      .y_first_o (y_first),
+      .y_last_o  (y_last),
+      .touched_o (touched)
+    );
+    assign pass       = 1'b0;
+    assign superblock = 1'b0;
+    assign move       = '0;
+    assign tile_x     = '0;
+    assign tile_y     = '0;
+  end else begin : gen_walk
+    // An edge that is negative at all samples of a cell is so on the side to which it falls.
+    logic none_left, none_right;
+    always_comb begin
+      none_left  = 1'b0;
+      none_right = 1'b0;
+      for (int unsigned i = 0; i < EdgeCount; i++) begin
+        none_left  |= (&outside[i]) & ~job_d.a[i][StepBits-1];
+        none_right |= (&outside[i]) & (job_d.a[i][StepBits-1] | (job_d.a[i] == '0));
+      end
+    end
+
+    block_walk #(
+      .Levels (Levels),
+      .Order  (Order)
+    ) u_walk (
+      .clk_i        (clk_i),
+      .load_i       (load),
+      .x_first_i    (triangle_i.x_first),
+      .x_last_i     (triangle_i.x_last),
+      .y_first_i    (triangle_i.y_first),
+      .y_last_i     (triangle_i.y_last),
+      .advance_i    (step),
+      .none_left_i  (none_left),
+      .none_right_i (none_right),
+      .in_all_i     (in_all),
+      .pass_o       (pass),
+      .last_o       (last_block),
+      .superblock_o (superblock),
+      .move_o       (move),
+      .block_x_o    (job_d.block_x),
+      .block_y_o    (job_d.block_y),
+      .tile_x_o     (tile_x),
+      .tile_y_o     (tile_y),
+      .x_first_o    (x_first),
+      .x_last_o     (x_last),
+      .y_first_o    (y_first),
+      .y_last_o     (y_last),
+      .touched_o    (touched)
+    );
+    assign row_end = 1'b0;
+  end
 
   // Few samples: the bounds lie in one block, and have no more columns and rows than a block has of tiles.
   typedef logic [PixelBits-1:0] pixel_t;
@@ -95,27 +160,36 @@ module block_walker
   for (genvar i = 0; i < EdgeCount; i++) begin : gen_edge
     block_edge #(
       .TrivialReject (TrivialReject),
-      .SampleReject  (SampleReject)
+      .SampleReject  (SampleReject),
+      .Levels        (Levels),
+      .Order         (Order)
     ) u_edge (
-      .clk_i     (clk_i),
-      .load_i    (load),
-      .edge_i    (triangle_i.e[i]),
-      .a_i       (triangle_i.a[i]),
-      .b_i       (triangle_i.b[i]),
-      .samples_i (samples),
-      .x_i       (triangle_i.x_first[BlockLog2-1:0]),
-      .y_i       (triangle_i.y_first[BlockLog2-1:0]),
-      .advance_i (step),
-      .row_end_i (row_end),
-      .edge_o    (job_d.e[i]),
-      .a_o       (job_d.a[i]),
-      .b_o       (job_d.b[i]),
-      .outside_o (outside[i])
+      .clk_i        (clk_i),
+      .load_i       (load),
+      .edge_i       (triangle_i.e[i]),
+      .a_i          (triangle_i.a[i]),
+      .b_i          (triangle_i.b[i]),
+      .samples_i    (samples),
+      .x_i          (triangle_i.x_first[BlockLog2-1:0]),
+      .y_i          (triangle_i.y_first[BlockLog2-1:0]),
+      .advance_i    (step),
+      .row_end_i    (row_end),
+      .move_i       (move),
+      .tile_x_i     (tile_x),
+      .tile_y_i     (tile_y),
+      .superblock_i (superblock),
+      .edge_o       (job_d.e[i]),
+      .a_o          (job_d.a[i]),
+      .b_o          (job_d.b[i]),
+      .outside_o    (outside[i])
     );
   end
 
   if (HiZ) begin : gen_plane
-    block_plane u_plane (
+    block_plane #(
+      .Levels (Levels),
+      .Order  (Order)
+    ) u_plane (
       .clk_i     (clk_i),
       .load_i    (load),
       .z_i       (triangle_i.z),
@@ -124,6 +198,7 @@ module block_walker
       .known_i   (triangle_i.z_known),
       .advance_i (step),
       .row_end_i (row_end),
+      .move_i    (move),
       .z_o       (job_d.z),
       .dx_o      (job_d.z_dx),
       .dy_o      (job_d.z_dy),
@@ -138,9 +213,6 @@ module block_walker
     logic unused_plane;
     assign unused_plane = ^{triangle_i.z, triangle_i.z_dx, triangle_i.z_dy, triangle_i.z_known};
   end
-
-  // What is inside all edges: tiles, or samples.
-  logic [BlockTiles-1:0] in_all;
 
   always_comb begin
     in_all = '1;
@@ -202,7 +274,7 @@ module block_walker
   logic credit, emit, done, fifo_empty;
 
   assign step = busy_q & credit;
-  assign emit = step & (|job_d.tiles);
+  assign emit = step & ~pass & (|job_d.tiles);
   assign done = step & last_block;
 
   assign triangle_ready_o = idle_q | done;

@@ -14,6 +14,8 @@ module raster_pipeline
   parameter int unsigned SetupFifo = 40,
   parameter bit          TrivialReject = 1'b1,
   parameter bit          SampleReject = 1'b0,
+  parameter int unsigned WalkLevels = 2,
+  parameter int unsigned WalkOrder = 0,
   parameter int unsigned BlockFifo = 4,
   parameter bit          HiZ = 1'b0,
   parameter bit          HiZAccept = 1'b1,
@@ -21,6 +23,7 @@ module raster_pipeline
   parameter int unsigned HiZLag = 128,
   parameter int unsigned HiZFifo = 12,
   parameter bit          TrivialAccept = 1'b1,
+  parameter int unsigned TileOrder = 0,
   parameter int unsigned WalkerFifo = 16,
   parameter int unsigned PipeStages = 2,
   parameter int unsigned EdgeFifo = 4,
@@ -151,6 +154,8 @@ module raster_pipeline
     .FifoDepth     (BlockFifo),
     .TrivialReject (TrivialReject),
     .SampleReject  (SampleReject),
+    .Levels        (WalkLevels),
+    .Order         (WalkOrder),
     .HiZ           (HiZ)
   ) u_block_walker (
     .clk_i            (clk_i),
@@ -245,7 +250,8 @@ module raster_pipeline
 
   tile_walker #(
     .FifoDepth     (WalkerFifo),
-    .TrivialAccept (TrivialAccept)
+    .TrivialAccept (TrivialAccept),
+    .Order         (TileOrder)
   ) u_tile_walker (
     .clk_i         (clk_i),
     .rst_ni        (rst_ni),

@@ -1,7 +1,9 @@
 raster_pkg.sv
+walk_pkg.sv
 credits.sv
 memory_fifo.sv
 credit_fifo.sv
 pipe_register.sv
+ordered_pick.sv
 tile_edge.sv
 tile_walker.sv

@@ -1,4 +1,4 @@
-// From a block to its tiles: one tile job a cycle, in row order.
+// From a block to its tiles: one tile job a cycle, in row order or another.
 //
 // The block stays at the head of block_walker's FIFO until its last tile is made; here is only a register of the tiles
 // that are left. A job takes three cycles: the tile is picked; the edges move to it; the test for accept bits, and the
@@ -10,7 +10,9 @@ module tile_walker
   /// Slots of the output FIFO, 2 or more, each as wide as tile_job_t. With 2 or 3 jobs cannot leave in every cycle.
   parameter int unsigned FifoDepth = 16,
   /// 0: no accept bits.
-  parameter bit TrivialAccept = 1'b1
+  parameter bit TrivialAccept = 1'b1,
+  /// In which order tiles leave: walk_pkg.
+  parameter int unsigned Order = walk_pkg::RasterTiles
 ) (
   input  logic       clk_i,
   input  logic       rst_ni,
@@ -40,21 +42,21 @@ module tile_walker
     $error("HALFSPACE_BLOCK_SIZE must be 2, 4 or 8 times HALFSPACE_TILE_SIZE, 8 to 64");
   end
 
-  // The places above the lowest bit of a set, by doubling: log2(BlockTiles) ORs deep.
-  function automatic tiles_t above(tiles_t set);
-    above = set << 1;
-    for (int unsigned k = 1; k < BlockTiles; k *= 2) begin
-      above |= above << k;
-    end
-  endfunction
-
   // Tiles that the jobs of this block have not passed: all of them before the first job.
   tiles_t left_q, tiles, rest, pick;
   logic   credit, emit;
 
   assign tiles = block_i.tiles & left_q;
-  assign rest  = tiles & above(tiles);
-  assign pick  = tiles & ~rest;
+
+  ordered_pick #(
+    .Side  (RowTiles),
+    .Order (Order)
+  ) u_pick (
+    .set_i  (tiles),
+    .pick_o (pick),
+    .rest_o (rest)
+  );
+
   assign emit  = block_valid_i & credit;
 
   assign block_ready_o = credit & (rest == '0);

@@ -51,9 +51,16 @@ GROUPS = {
     # The modules that other units have too are mutated there: these have only a part of what credit_fifo can be.
     "block_walker": Group(
         "block_walker",
-        ["t8_b32", "t8_b32_hi_z", "t4_b32", "t16_b32_noreject"],
+        ["t8_b32", "t8_b32_all", "t4_b32", "t16_b32_noreject"],
         ["--tiles", "40000"],
-        ["block_walker", "block_position", "block_edge", "block_plane"],
+        ["block_walker", "block_position", "block_inside", "block_edge", "block_plane"],
+    ),
+    "walks": Group(
+        "block_walker",
+        ["t8_b32_1_backtracking", "t4_b32_1_zigzag", "t8_b16_1_boustrophedonic", "t4_b16_2_backtracking"]
+        + ["t8_b32_2_zigzag", "t4_b8_2_morton", "t8_b32_1_hilbert", "t8_b32_3_hilbert", "t4_b32_3_morton"],
+        ["--tiles", "10000"],
+        ["block_walk", "row_cells", "curve_cells", "curve_next", "walk_value", "ordered_pick"],
     ),
     "tile_walker": Group(
         "tile_walker",

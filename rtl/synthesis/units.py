@@ -64,9 +64,17 @@ def _edge_evaluator() -> Unit:
 
 
 def _walker(name, switch) -> Unit:
-    def of(tile, block, sub_pixel=8, measured=True, **parameters):
+    def of(tile, block, sub_pixel=8, measured=True, multipliers=0, **parameters):
         defines = {"TILE_SIZE": tile, "BLOCK_SIZE": block, "SUB_PIXEL_BITS": sub_pixel}
-        return Configuration(name, defines, parameters, measured=measured)
+        return Configuration(name, defines, parameters, multipliers, measured=measured)
+
+    def walk(levels, order, measured=True, **parameters):
+        # Edges, and the plane, jump by products in x and y.
+        jumps = levels == 3 or order > 3
+        values = 4 if "HiZ" in parameters else 3
+        return of(
+            8, 32, measured=measured, multipliers=2 * values * jumps, Levels=levels, Order=order, **parameters
+        )
 
     return Unit(
         name,
@@ -79,9 +87,17 @@ def _walker(name, switch) -> Unit:
             of(8, 64),
             of(8, 32, **{switch: "1'b0"}),
             *(
-                (of(8, 32, HiZ="1'b1"), of(8, 32, SampleReject="1'b1"))
+                (
+                    of(8, 32, HiZ="1'b1"),
+                    of(8, 32, SampleReject="1'b1"),
+                    *(walk(1, order) for order in range(6)),
+                    *(walk(2, order) for order in range(1, 6)),
+                    *(walk(3, order) for order in (0, 1, 4, 5)),
+                    walk(1, 3, measured=False, HiZ="1'b1"),
+                    walk(3, 5, measured=False, HiZ="1'b1", SampleReject="1'b1"),
+                )
                 if name == "block_walker"
-                else ()
+                else tuple(of(8, 32, Order=order) for order in (1, 2, 3))
             ),
             of(8, 32, 4, False),
             of(4, 8, 5, False, FifoDepth=2),

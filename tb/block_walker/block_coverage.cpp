@@ -104,6 +104,9 @@ void BlockCoverage::taken(const std::vector<BlockStep>& steps, std::uint8_t slot
 }
 
 void BlockCoverage::step(const BlockStep& step, const std::array<std::size_t, 3>& direction) {
+  if (step.pass) {
+    return;
+  }
   if (step.few_samples) {
     few_samples(step);
     return;
@@ -155,8 +158,8 @@ void BlockCoverage::few_samples(const BlockStep& step) {
 }
 
 void BlockCoverage::shape(const std::vector<BlockStep>& steps) {
-  const bool wide = steps.front().job.block_x != steps.back().job.block_x;
-  const bool tall = steps.front().job.block_y != steps.back().job.block_y;
+  const bool wide = steps.front().wide;
+  const bool tall = steps.front().tall;
   const auto leaves = [](const BlockStep& step) { return step.leaves(); };
   const auto first = std::ranges::find_if(steps, leaves);
   bins_.hit(fmt::format("{}, {}",

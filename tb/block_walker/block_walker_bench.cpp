@@ -26,10 +26,12 @@ constexpr std::uint64_t kTimingTriangles = 200;
 constexpr std::uint64_t kStalledCycles = 2000;  // longer than any stall profile holds a link
 constexpr int kBinsMissed = 18;                 // exit status, after those of FailureKind
 
-/// Steps of the largest triangle that a bench sends: every block may be without a tile.
-std::uint64_t most_steps(const WalkSizes& sizes) {
-  const auto across = static_cast<std::uint64_t>(2048 / sizes.block_size);
-  return across * across;
+/// Steps of the largest triangle that a bench sends: every cell may be without a tile, and looked at twice.
+std::uint64_t most_steps(const BlockWalkerParameters& walker) {
+  const WalkSizes& sizes = walker.sizes;
+  const auto across =
+      static_cast<std::uint64_t>(2048 / (walker.levels == 1 ? sizes.tile_size : sizes.block_size));
+  return 2 * across * across;
 }
 
 /// The cycles from the first triangle until the last block has left, by the model's own timing engine, where
@@ -101,7 +103,7 @@ class BlockWalkerBench {
             .latency = kBlockLatency,
             .capacity = walker.fifo_depth,
             .timing = [this, walker] { return std::make_unique<BlockTiming>(walker, *coverage_); },
-            .deadlock_cycles = kStalledCycles + most_steps(walker.sizes)};
+            .deadlock_cycles = kStalledCycles + most_steps(walker)};
   }
 
   std::vector<BenchRun> runs(const DutModel& model, const std::string& test_case,

@@ -36,19 +36,23 @@ SetupTriangle to_model(const SetupTrianglePacket& packet, const BlockWalkerParam
 /// What the unit tells, as steps.
 class StepSink {
  public:
-  StepSink(const BlockWalkerParameters& parameters, const PixelRect& bounds, std::vector<BlockStep>& steps)
-      : parameters_(parameters), steps_(steps) {
+  StepSink(const BlockWalkerParameters& parameters, const SetupTriangle& triangle,
+           std::vector<BlockStep>& steps)
+      : parameters_(parameters), triangle_(triangle), steps_(steps) {
+    const PixelRect& bounds = triangle.bounds;
     const int block = parameters.sizes.block_size;
     const int most = parameters.sizes.row_tiles();
     const auto is_short = [&](int first, int last) {
       return first / block == last / block && last - first < most;
     };
+    wide_ = bounds.x_first / block != bounds.x_last / block;
+    tall_ = bounds.y_first / block != bounds.y_last / block;
     few_samples_ = parameters.sample_reject && is_short(bounds.x_first, bounds.x_last) &&
                    is_short(bounds.y_first, bounds.y_last);
   }
 
   void block(const BlockJob& job, std::uint64_t touched) {
-    BlockStep step{.job = job, .touched = touched, .few_samples = few_samples_};
+    BlockStep step{.job = job, .touched = touched, .few_samples = few_samples_, .wide = wide_, .tall = tall_};
     std::uint64_t left = touched;
     for (std::size_t i = 0; i < 3; ++i) {
       test(i, step);
@@ -56,6 +60,14 @@ class StepSink {
     }
     if ((few_samples_ ? covered(step) : left) != job.tiles) {
       throw std::logic_error("block_walker.hpp and the samples of a tile say different things");
+    }
+    steps_.push_back(step);
+  }
+  void pass() {
+    BlockStep step{.job = {}, .wide = wide_, .tall = tall_, .pass = true};
+    for (std::size_t i = 0; i < 3; ++i) {
+      step.job.a[i] = triangle_.edge[i].a;
+      step.job.b[i] = triangle_.edge[i].b;
     }
     steps_.push_back(step);
   }
@@ -99,8 +111,11 @@ class StepSink {
   }
 
   const BlockWalkerParameters& parameters_;
+  const SetupTriangle& triangle_;
   std::vector<BlockStep>& steps_;
   bool few_samples_ = false;
+  bool wide_ = false;
+  bool tall_ = false;
 };
 
 }  // namespace
@@ -115,7 +130,7 @@ std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle, s
   const SetupTriangle model =
       to_model(unpack<SetupTrianglePacket>(triangle, parameters.sizes.widths()), parameters);
   std::vector<BlockStep> steps;
-  StepSink sink(parameters, model.bounds, steps);
+  StepSink sink(parameters, model, steps);
   with_tile_size(parameters.sizes.tile_size,
                  [&](auto size) { block_walker<size()>(model, parameters.walker(), slot, sink); });
   return steps;

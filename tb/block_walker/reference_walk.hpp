@@ -20,22 +20,30 @@ struct BlockWalkerParameters {
   bool trivial_reject = true;
   bool sample_reject = false;
   bool hi_z = false;
+  int levels = 2;
+  WalkOrder order = WalkOrder::kRaster;
 
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = sizes.sub_pixel_bits,
             .block_size = sizes.block_size,
             .trivial_reject = trivial_reject,
-            .sample_reject = sample_reject};
+            .sample_reject = sample_reject,
+            .levels = levels,
+            .order = order};
   }
 };
 
-/// A block of the bounds. Sets of tiles are masks as in BlockJob.
+/// A step of the walk: a block of the bounds, or with one level a tile of it, or nothing that leaves. Sets of
+/// tiles are masks as in BlockJob.
 struct BlockStep {
   BlockJob job;                            ///< leaves, if it has a tile
   std::uint64_t touched = 0;               ///< by the bounds
   std::array<std::uint64_t, 3> outside{};  ///< of those: all samples outside the edge
   std::array<std::uint64_t, 3> inside{};   ///< all inside
   bool few_samples = false;                ///< these are tested, not tiles
+  bool wide = false;                       ///< the bounds have more than one column of blocks
+  bool tall = false;                       ///< more than one row
+  bool pass = false;                       ///< it only leads the walk: of the job only a and b are there
   [[nodiscard]] bool leaves() const { return job.tiles != 0; }
 };
 

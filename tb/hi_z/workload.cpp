@@ -173,6 +173,7 @@ class HiZMaker {
           jobs.push_back(job);
         }
       }
+      static void pass() {}
     };
     Sink sink;
     block_walker<TileSize>(triangle, walker(), 0, sink);

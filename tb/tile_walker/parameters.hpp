@@ -10,11 +10,13 @@ struct TileWalkerParameters {
   WalkSizes sizes;
   int fifo_depth = 16;
   bool trivial_accept = true;
+  TileOrder order = TileOrder::kRaster;
 
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = sizes.sub_pixel_bits,
             .block_size = sizes.block_size,
-            .trivial_accept = trivial_accept};
+            .trivial_accept = trivial_accept,
+            .tile_order = order};
   }
 };
 

@@ -36,6 +36,9 @@ TEST_CASE("stress: the units, other machines and SystemC break no law") {
   for (const char* options :
        {"--core readable --cases 3",
         "--core readable --cases 3 --set tile_walker.tile_size=16 --set hi_z.enabled=true",
+        "--core readable --cases 3 --set block_walker.levels=1 --set block_walker.order=backtracking",
+        "--core readable --cases 3 --set block_walker.order=zigzag --set tile_walker.order=morton",
+        "--core readable --cases 3 --set block_walker.levels=3 --set block_walker.order=hilbert",
         "--fidelity recurrence --cases 3 --depth float32 --set depth.interpolator=barycentric",
         "--fidelity systemc --cases 1 --set raster.sub_pixel_bits=4 --depth unorm16"}) {
     const Outcome outcome = place.run(std::string("stress ") + options);

@@ -29,8 +29,12 @@ Frame any_frame(Random& random) {
   }
 }
 
-/// Random, or all off; hi_z stays off where a block has too many parts of tiles for it.
+/// Random, with any walk, or all off and in row order; hi_z stays off where a block has too many parts of
+/// tiles for it.
 Config with_switches(Random& random, Config config, bool off) {
+  config.block_walker.levels = 2;
+  config.block_walker.order = WalkOrder::kRaster;
+  config.tile_walker.order = TileOrder::kRaster;
   for (const char* name : kSwitches) {
     set_config(config, name, off || random.between(0, 1) == 0 ? "false" : "true");
   }
@@ -38,6 +42,9 @@ Config with_switches(Random& random, Config config, bool off) {
     validate(config);
   } catch (const InputError&) {
     config.hi_z.enabled = false;
+  }
+  if (!off) {
+    random_walk(random, config);
   }
   return config;
 }

@@ -27,6 +27,35 @@ inline int mostly_small(Random& random, int least, int most) {
   return static_cast<int>(random.between(least, high));
 }
 
+/// Draws a walk that is legal on the machine; every other time raster, block by block.
+inline void random_walk(Random& random, Config& config) {
+  while (true) {
+    config.block_walker.levels = 2;
+    config.block_walker.order = WalkOrder::kRaster;
+    config.tile_walker.order = TileOrder::kRaster;
+    if (random.between(0, 1) == 0) {
+      return;
+    }
+    config.block_walker.levels = static_cast<int>(random.between(1, 3));
+    config.block_walker.order = static_cast<WalkOrder>(random.between(0, 5));
+    config.tile_walker.order = static_cast<TileOrder>(random.between(0, 3));
+    try {
+      validate(config);
+      return;
+    } catch (const InputError&) {
+      // a led walk with superblocks, or without the test that leads it
+    }
+  }
+}
+
+/// For a ledger: a walk that comes to every block of the bounds.
+inline void keep_to_all_blocks(Config& config) {
+  config.block_walker.levels = 2;
+  if (is_led(config.block_walker.order)) {
+    config.block_walker.order = WalkOrder::kRaster;
+  }
+}
+
 /// A valid configuration; every key that changes time, and those that change packets, are random.
 inline Config random_config(Random& random) {
   Config config;
@@ -92,6 +121,7 @@ inline Config random_config(Random& random) {
   config.memory.latency = pick(random, {1, 2, 5, 20, 50, 100, 400, 5000});
   config.memory.read_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
   config.memory.write_bytes = pick(random, {1, 4, 16, 32, 64, 128, 1024});
+  random_walk(random, config);
   return config;
 }
 
@@ -104,6 +134,9 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.block_walker.block_size = recorded.block_walker.block_size;
     config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
     config.block_walker.sample_reject = recorded.block_walker.sample_reject;
+    config.block_walker.levels = recorded.block_walker.levels;
+    config.block_walker.order = recorded.block_walker.order;
+    config.tile_walker.order = recorded.tile_walker.order;
     config.tile_walker.trivial_accept = recorded.tile_walker.trivial_accept;
     config.hi_z.enabled = recorded.hi_z.enabled;
     config.hi_z.accept = recorded.hi_z.accept;

@@ -128,6 +128,20 @@ TEST_CASE("config: keys that must fit each other") {
         "(4)");
   CHECK(error_of({"tile_walker.tile_size=4", "quad_generator.quads_per_cycle=8"}) ==
         "configuration key 'quad_generator.quads_per_cycle' is 8; legal: at most the quads of a tile (4)");
+  const std::string led = "legal: raster, boustrophedonic, morton, hilbert where ";
+  CHECK(error_of({"block_walker.order=zigzag", "block_walker.levels=3"}) ==
+        "configuration key 'block_walker.order' is zigzag; " + led + "'block_walker.levels' is 3");
+  CHECK(error_of({"block_walker.order=backtracking", "block_walker.trivial_reject=false"}) ==
+        "configuration key 'block_walker.order' is backtracking; " + led +
+            "'block_walker.trivial_reject' is false");
+  CHECK(error_of({"block_walker.levels=3", "block_walker.trivial_reject=false"}) ==
+        "configuration key 'block_walker.levels' is 3; legal: 1, 2 where 'block_walker.trivial_reject' is "
+        "false");
+  CHECK(
+      error_of({"block_walker.levels=1", "block_walker.sample_reject=true"}) ==
+      "configuration key 'block_walker.levels' is 1; legal: 2, 3 where 'block_walker.sample_reject' is true");
+  CHECK(error_of({"tile_walker.order=hilbert", "hi_z.enabled=true"}) ==
+        "configuration key 'tile_walker.order' is hilbert; legal: raster where 'hi_z.enabled' is true");
   CHECK(error_of({"early_z.quads_per_cycle=8"}) ==
         "configuration key 'early_z.quads_per_cycle' is 8; legal: at most 'quad_generator.quads_per_cycle' "
         "(4)");

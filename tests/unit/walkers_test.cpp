@@ -1,7 +1,9 @@
 // The walk over blocks and tiles: nothing is lost, what is left out or accepted is sound, and switches change
 // only the work.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <tuple>
 
 #include "../triangles.hpp"
 #include "halfspace/units/block_walker.hpp"
@@ -24,12 +26,14 @@ struct Recorded {
   };
   WalkerConfig config;
   std::vector<Block> blocks;
-  std::vector<std::pair<TileJob, bool>> tiles;
+  std::vector<std::pair<TileJob, bool>> tiles{};
+  int passes = 0;
 
   void block(const BlockJob& job, std::uint64_t touched) {
     blocks.push_back({job, touched});
     tile_walker<TileSize>(job, config, *this);
   }
+  void pass() { ++passes; }
   void tile(const TileJob& job, bool whole) { tiles.emplace_back(job, whole); }
 };
 
@@ -53,7 +57,7 @@ void check_walk(const ScreenTriangle& t, const SetupState& state, const WalkerCo
   }
   const std::vector<bool> exact = exact_coverage(t, state.bounds, state.sub_pixel_bits);
   const int row_tiles = config.block_size / TileSize;
-  Recorded<TileSize> recorded{.config = config, .blocks = {}, .tiles = {}};
+  Recorded<TileSize> recorded{.config = config, .blocks = {}};
   block_walker<TileSize>(triangle, config, 0, recorded);
 
   const PixelRect& bounds = triangle.bounds;
@@ -126,13 +130,71 @@ TEMPLATE_TEST_CASE_SIG("walkers: cover exactly the samples of the definition, wh
   }
 }
 
+namespace {
+
+/// By place, so that orders compare.
+template <int TileSize>
+auto sorted_tiles(const SetupTriangle& triangle, const WalkerConfig& config) {
+  Recorded<TileSize> recorded{.config = config, .blocks = {}};
+  block_walker<TileSize>(triangle, config, 0, recorded);
+  const auto fields = [](const TileJob& j, bool whole) {
+    return std::tuple(j.tile_y, j.tile_x, j.e, j.a, j.b, int{j.accept}, int{j.x_first}, int{j.x_last},
+                      int{j.y_first}, int{j.y_last}, whole);
+  };
+  std::vector<decltype(fields({}, false))> tiles;
+  for (const auto& [job, whole] : recorded.tiles) {
+    tiles.push_back(fields(job, whole));
+  }
+  std::ranges::sort(tiles);
+  return tiles;
+}
+
+bool is_legal(const WalkerConfig& config) {
+  return !is_led(config.order) || (config.levels != 3 && config.trivial_reject);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("walkers: every walk gives the tiles of the walk in row order, each once", "",
+                       ((int TileSize), TileSize), 4, 8, 16) {
+  const int row_tiles = GENERATE(2, 4, 8);
+  const int levels = GENERATE(1, 2, 3);
+  const auto order = static_cast<WalkOrder>(GENERATE(range(0, 6)));
+  const bool reject = GENERATE(true, false);
+  const WalkerConfig raster{.block_size = row_tiles * TileSize, .trivial_reject = reject};
+  WalkerConfig config = raster;
+  config.levels = levels;
+  config.order = order;
+  if (row_tiles * TileSize > 64 || !is_legal(config) || (levels == 3 && !reject)) {
+    return;
+  }
+  constexpr int kWide = 400;
+  CAPTURE(TileSize, row_tiles, levels, static_cast<int>(order), reject);
+  SetupState state = open_state(kWide);
+  TriangleSource source(static_cast<std::uint64_t>(levels * 10 + static_cast<int>(order)), kWide, 8);
+  for (int n = 0; n < 150; ++n) {
+    state.bounds = {.x_first = 0, .y_first = 0, .x_last = kWide - 1, .y_last = kWide - 1};
+    if (n % 3 == 0) {  // a scissor
+      const int x = source.integer(0, kWide - 1);
+      const int y = source.integer(0, kWide - 1);
+      state.bounds = {x, y, source.integer(x, kWide - 1), source.integer(y, kWide - 1)};
+    }
+    config.tile_order = static_cast<TileOrder>(n % 4);
+    SetupTriangle triangle;
+    if (setup(source.next(), state, triangle) != SetupVerdict::kDrawn) {
+      continue;
+    }
+    REQUIRE(sorted_tiles<TileSize>(triangle, config) == sorted_tiles<TileSize>(triangle, raster));
+  }
+}
+
 TEST_CASE("walkers: a triangle over the whole target covers the tiles inside whole") {
   SetupTriangle triangle;
   REQUIRE(setup({{ScreenVertex{-40000, -40000, 0}, ScreenVertex{200000, -40000, 0},
                   ScreenVertex{-40000, 200000, 0}},
                  0},
                 open_state(kSize), triangle) == SetupVerdict::kDrawn);
-  Recorded<8> recorded{.config = {}, .blocks = {}, .tiles = {}};
+  Recorded<8> recorded{.config = {}, .blocks = {}};
   block_walker<8>(triangle, {}, 0, recorded);
   CHECK(recorded.blocks.size() == 16);
   CHECK(recorded.blocks[0].job.tiles == 0xFFFF);
@@ -153,7 +215,7 @@ TEST_CASE(
     triangle.bounds = {.x_first = 0, .y_first = 0, .x_last = 7, .y_last = 7};
     triangle.edge = {Edge{.a = -1, .b = 0, .c = start << 8}, Edge{.a = 0, .b = 0, .c = 1000},
                      Edge{.a = 0, .b = 0, .c = 1000}};
-    Recorded<8> recorded{.config = {}, .blocks = {}, .tiles = {}};
+    Recorded<8> recorded{.config = {}, .blocks = {}};
     block_walker<8>(triangle, {}, 0, recorded);
     return recorded;
   };

@@ -60,7 +60,10 @@ ChainContext& GoldenModel::context() {
                      .block_size = config_.block_walker.block_size,
                      .trivial_reject = config_.block_walker.trivial_reject,
                      .trivial_accept = config_.tile_walker.trivial_accept,
-                     .sample_reject = config_.block_walker.sample_reject};
+                     .sample_reject = config_.block_walker.sample_reject,
+                     .levels = config_.block_walker.levels,
+                     .order = config_.block_walker.order,
+                     .tile_order = config_.tile_walker.order};
   for (int link = 0; link < HALFSPACE_LINKS; ++link) {
     context->expected.emplace_back(words_for(link_bits(static_cast<LinkId>(link), context->widths)));
   }

@@ -109,6 +109,7 @@ void ledger_command(const LedgerOptions& options) {
   run_options.watch.count_pixels = false;
   options.rtl.apply(run_options);
   const Config config = options.machine.config();
+  ledger::check_machine(config);
   const Frame frame = options.input.frame();
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) {

@@ -270,6 +270,34 @@ Config read_config(const std::filesystem::path& path) {
   return config_of(path.string(), [&] { return toml::parse_file(path.string()); });
 }
 
+namespace {
+
+/// The walk of block_walker.
+void validate_walk(const Config& config) {
+  const auto demand = [](bool legal, const char* key, std::string_view value, const std::string& what) {
+    if (!legal) {
+      throw OptionError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
+    }
+  };
+  const auto& walker = config.block_walker;
+  const bool led = is_led(walker.order);
+  const std::string_view order = walker.order == WalkOrder::kZigzag ? "zigzag" : "backtracking";
+  demand(!led || walker.levels != 3, "block_walker.order", order,
+         "raster, boustrophedonic, morton, hilbert where 'block_walker.levels' is 3");
+  demand(!led || walker.trivial_reject, "block_walker.order", order,
+         "raster, boustrophedonic, morton, hilbert where 'block_walker.trivial_reject' is false");
+  demand(walker.levels != 3 || walker.trivial_reject, "block_walker.levels", "3",
+         "1, 2 where 'block_walker.trivial_reject' is false");
+  demand(walker.levels != 1 || !walker.sample_reject, "block_walker.levels", "1",
+         "2, 3 where 'block_walker.sample_reject' is true");
+  constexpr std::string_view kTileOrders[] = {"raster", "boustrophedonic", "morton", "hilbert"};
+  demand(config.tile_walker.order == TileOrder::kRaster || !config.hi_z.enabled, "tile_walker.order",
+         kTileOrders[static_cast<std::size_t>(config.tile_walker.order)],
+         "raster where 'hi_z.enabled' is true");
+}
+
+}  // namespace
+
 void validate(const Config& config) {
   const auto demand = [](bool legal, const char* key, int value, const std::string& what) {
     if (!legal) {
@@ -279,6 +307,7 @@ void validate(const Config& config) {
   const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
   demand(row_tiles >= 2 && row_tiles <= 8, "block_walker.block_size", config.block_walker.block_size,
          fmt::format("2, 4 or 8 times 'tile_walker.tile_size' ({})", config.tile_walker.tile_size));
+  validate_walk(config);
   const int bounds = row_tiles * row_tiles * config.z_cache.parts;
   demand(!config.hi_z.enabled || bounds <= static_cast<int>(kMostHiZEntries), "hi_z.enabled", 1,
          fmt::format("false where a block has more than {} parts of tiles (these have {})", kMostHiZEntries,

@@ -11,6 +11,7 @@
 #include "halfspace/numerics/conservative.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
+#include "halfspace/units/walk_order.hpp"
 
 namespace halfspace {
 

@@ -55,6 +55,12 @@
         "drop tiles that are outside one edge", TrivialReject)                                               \
     MODULE(block_walker., sample_reject, bool, false, boolean(), "", function,                               \
         "drop tiles without a covered sample, of triangles whose bounds hold few", SampleReject)             \
+    MODULE(block_walker., levels, int, 2, range(1, 3), "", function,                                            \
+        "what a step decides: 1 = a tile, 2 = the tiles of a block, 3 = the blocks of a superblock, then "   \
+        "the tiles of each that is left", WalkLevels)                                                                    \
+    MODULE(block_walker., order, WalkOrder, WalkOrder::kRaster,                                                 \
+        one_of("raster", "boustrophedonic", "backtracking", "zigzag", "morton", "hilbert"), "", function,    \
+        "in which a triangle's steps are made", WalkOrder)                                                              \
     MODULE(block_walker., fifo, int, 4, range(2, 8), "blocks", time,                                         \
         "output FIFO of the block walker", BlockFifo)                                                        \
   END(block_walker)                                                                                          \
@@ -76,6 +82,9 @@
         TileSize, HALFSPACE_TILE_SIZE)                                                                       \
     MODULE(tile_walker., trivial_accept, bool, true, boolean(), "", function,                                \
         "skip an edge that has all samples of the tile inside", TrivialAccept)                               \
+    MODULE(tile_walker., order, TileOrder, TileOrder::kRaster,                                                  \
+        one_of("raster", "boustrophedonic", "morton", "hilbert"), "", function,                              \
+        "in which the tiles of a block leave", TileOrder)                                                               \
     MODULE(tile_walker., fifo, int, 16, range(2, 64), "tile jobs", time,                                     \
         "output FIFO of the tile walker", WalkerFifo)                                                        \
   END(tile_walker)                                                                                           \

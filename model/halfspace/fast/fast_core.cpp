@@ -111,6 +111,12 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (config.block_walker.sample_reject) {
     return "block_walker.sample_reject = true";
   }
+  if (config.block_walker.levels != 2) {
+    return "block_walker.levels other than 2";
+  }
+  if (config.block_walker.order != WalkOrder::kRaster || config.tile_walker.order != TileOrder::kRaster) {
+    return "an order of walking other than raster";
+  }
   if (config.z_cache.compression) {
     return "z_cache.compression = true";
   }

@@ -180,7 +180,22 @@ std::uint64_t check_counters(const Ledger& ledger, const FrameResult& counted) {
   return count + frame.count();
 }
 
+void check_machine(const Config& config) {
+  const auto& walker = config.block_walker;
+  if (walker.levels != 2) {
+    throw OptionError(
+        fmt::format("configuration key 'block_walker.levels' is {}; legal for a ledger: 2", walker.levels));
+  }
+  if (is_led(walker.order)) {
+    throw OptionError(
+        fmt::format("configuration key 'block_walker.order' is {}; legal for a ledger: raster, "
+                    "boustrophedonic, morton, hilbert",
+                    walker.order == WalkOrder::kZigzag ? "zigzag" : "backtracking"));
+  }
+}
+
 Ledger make_ledger(const Frame& frame, const Config& config, const FrameResult& counted) {
+  check_machine(config);
   const std::vector<Accounts> fates = follow(frame, config);
   const std::optional<FrameResult> uncompressed = run_plain(frame, config);
   const FrameResult& plain = uncompressed ? *uncompressed : counted;

@@ -39,6 +39,10 @@ class LedgerError : public DisagreementError {
   using DisagreementError::DisagreementError;
 };
 
+/// The ledger counts blocks and tiles of the bounds, each once. Throws OptionError for a machine whose steps
+/// are others, or that does not come to all of them.
+void check_machine(const Config& config);
+
 /// The ledger of `frame` on the machine of `config`, both valid; `counted` is a run of them. Throws
 /// LedgerError where a sum does not add up, or a counter of `counted` says otherwise.
 Ledger make_ledger(const Frame& frame, const Config& config, const FrameResult& counted);

@@ -54,7 +54,10 @@ WalkerConfig walker_config(const Config& config) {
           .block_size = config.block_walker.block_size,
           .trivial_reject = config.block_walker.trivial_reject,
           .trivial_accept = config.tile_walker.trivial_accept,
-          .sample_reject = config.block_walker.sample_reject};
+          .sample_reject = config.block_walker.sample_reject,
+          .levels = config.block_walker.levels,
+          .order = config.block_walker.order,
+          .tile_order = config.tile_walker.order};
 }
 
 DepthLimits depth_limits(const Command& draw, DepthFormat format) {

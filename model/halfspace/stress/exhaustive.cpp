@@ -61,6 +61,7 @@ class UnitChain {
     }
     tile_walker<TileSize>(job, config_, *this);
   }
+  static void pass() {}
 
   void tile(const TileJob& job, bool whole) {
     ++tally_->tiles;

@@ -25,9 +25,10 @@ namespace halfspace {
   C(drawn,             "given to the walker")
 
 #define HALFSPACE_BLOCK_WALKER_COUNTERS(C)                                   \
-  C(blocks,            "of the bounds, looked at")                           \
+  C(blocks,            "of the bounds, looked at; with one level tiles")     \
   C(blocks_empty,      "left without a tile: nothing leaves for them")       \
-  C(tiles_rejected,    "tiles of the bounds outside one edge")
+  C(tiles_rejected,    "tiles of the bounds outside one edge")               \
+  C(passes,            "steps that only lead the walk: they decide no tile")
 
 #define HALFSPACE_HI_Z_COUNTERS(C)                                           \
   C(blocks_rejected,   "no sample of them can pass: nothing leaves for them") \

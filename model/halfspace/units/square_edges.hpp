@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "halfspace/units/walk_order.hpp"
+
 namespace halfspace {
 
 /// How the walk over blocks and tiles is done. Every choice gives the same coverage.
@@ -19,6 +21,10 @@ struct WalkerConfig {
   bool trivial_reject = true;
   bool trivial_accept = true;
   bool sample_reject = false;
+  int levels =
+      2;  ///< what a step decides: 1 a tile, 2 the tiles of a block, 3 also the blocks of a superblock
+  WalkOrder order = WalkOrder::kRaster;       ///< of the steps
+  TileOrder tile_order = TileOrder::kRaster;  ///< of the tiles of a block
 };
 
 /// Edges by the pixel.

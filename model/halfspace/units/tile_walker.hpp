@@ -1,7 +1,7 @@
 /// tile_walker: from a block to its tiles, one after the other.
 ///
-/// Tiles leave in row order, each with its edges, its part of the bounds, and an accept bit for every edge
-/// that all its samples are inside of: the edge evaluator need not look at that edge.
+/// Tiles leave in the order of the configuration, each with its edges, its part of the bounds, and an accept
+/// bit for every edge that all its samples are inside of: the edge evaluator need not look at that edge.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,7 @@ void tile_walker(const BlockJob& block, const WalkerConfig& config, Sink& sink) 
   const int row_tiles = config.block_size / TileSize;
   const SquareEdges edges(block.e, block.a, block.b, config.sub_pixel_bits);
   TileJob job{.slot = block.slot, .a = block.a, .b = block.b};
-  for (std::uint64_t left = block.tiles; left != 0; left &= left - 1) {
-    const int tile = std::countr_zero(left);
+  const auto make = [&](int tile) {
     const int tile_x = tile % row_tiles;
     const int tile_y = tile / row_tiles;
     const int x = tile_x * TileSize;
@@ -46,6 +45,13 @@ void tile_walker(const BlockJob& block, const WalkerConfig& config, Sink& sink) 
     job.y_last = in_tile(block.y_last, y);
     const bool filled = job.x_last - job.x_first == TileSize - 1 && job.y_last - job.y_first == TileSize - 1;
     sink.tile(job, job.accept == 7 && filled);
+  };
+  if (config.tile_order == TileOrder::kRaster) {
+    for (std::uint64_t left = block.tiles; left != 0; left &= left - 1) {
+      make(std::countr_zero(left));
+    }
+  } else {
+    for_each_in_order(config.tile_order, row_tiles, block.tiles, make);
   }
 }
 

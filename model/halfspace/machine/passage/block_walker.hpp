@@ -18,8 +18,8 @@ class BlockWalker {
   BlockWalker() = default;
   explicit BlockWalker(const WalkerConfig& config) : config_(config) {}
 
-  /// Walks `triangle`, and calls emit(block, empty) for every block job, with the blocks without a tile since
-  /// the job before. Returns the blocks after the last job.
+  /// Walks `triangle`, and calls emit(block, empty) for every block job, with the steps that gave out none
+  /// since the job before. Returns those after the last job.
   template <int TileSize, class Emit>
   std::uint32_t walk(const SetupTriangle& triangle, DrawContext& draw, Emit&& emit) {
     Sink<TileSize, Emit> sink{.config = config_, .triangle = triangle, .draw = draw, .emit = emit};
@@ -43,7 +43,7 @@ class BlockWalker {
     const SetupTriangle& triangle;
     DrawContext& draw;
     Emit& emit;
-    std::uint32_t empty = 0;  ///< blocks since the last job
+    std::uint32_t empty = 0;  ///< steps since the last job
     bool emitted = false;
 
     void block(const BlockJob& job, std::uint64_t touched) {
@@ -66,6 +66,11 @@ class BlockWalker {
       const std::uint32_t before = empty;
       empty = 0;
       emit(job, before);
+    }
+
+    void pass() {
+      ++draw.counters.block_walker.passes;
+      ++empty;
     }
 
     /// All of a block, in row order: also those that tile_walker makes of its tiles, later on.
