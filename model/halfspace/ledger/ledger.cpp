@@ -17,9 +17,9 @@ namespace {
 /// What the front end makes of the triangles of a draw; those that go on are counted behind it.
 void account_front_end(TriangleAccount& account, const Frame& frame, const Command& draw, DepthFormat format,
                        int sub_pixel_bits) {
-  const std::uint32_t triangles = draw.index_count / 3;
+  const std::uint32_t triangles = draw.primitive_count();
   account.all = triangles;
-  if (draw.has(Flag::kNotFilled)) {
+  if (draw.is_skipped()) {
     account.not_filled = triangles;
     return;
   }

@@ -84,16 +84,19 @@ FillRule fill_rule(const Command& draw, const Config& config) {
 
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
   const FillRule rule = fill_rule(draw, config);
+  const bool has_faces = draw.primitive == Primitive::kTriangles;
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
-          .cull_front = draw.has(Flag::kCullFront),
-          .cull_back = draw.has(Flag::kCullBack),
+          .cull_front = has_faces && draw.has(Flag::kCullFront),
+          .cull_back = has_faces && draw.has(Flag::kCullBack),
           .fill_rule = rule,
           .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
           .depth_format = format,
           .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator,
-          .hi_z = config.hi_z.enabled};
+          .hi_z = config.hi_z.enabled,
+          .line_rule = draw.line_rule,
+          .line_width = thin_width(draw.line_width)};
 }
 
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
