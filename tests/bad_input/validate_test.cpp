@@ -107,6 +107,19 @@ const FrameRule kFrameRules[] = {
     {[](Frame& f) { draw(f).flags = 2; },
      kDraw + "flags are 0x2, depth_write without depth_test; legal: depth_write only with depth_test"},
     {[](Frame& f) { draw(f).index_count = 5; }, kDraw + "index_count is 5; legal: a multiple of 3"},
+    {[](Frame& f) {
+       draw(f).primitive = Primitive::kLineStrip;
+       draw(f).index_count = 5;
+     },
+     kDraw + "index_count is 5; legal: a multiple of 2"},
+    {[](Frame& f) { draw(f).primitive = Primitive{4}; }, kDraw + "primitive is 4; legal: 0 to 3"},
+    {[](Frame& f) { draw(f).polygon_mode = PolygonMode{3}; }, kDraw + "polygon_mode is 3; legal: 0 to 2"},
+    {[](Frame& f) { draw(f).line_rule = LineRule{5}; }, kDraw + "line_rule is 5; legal: 0 to 4"},
+    {[](Frame& f) { draw(f).line_width = 0; }, kDraw + "line_width is 0; legal: above 0, at most 64"},
+    {[](Frame& f) { draw(f).line_width = 64.5F; }, kDraw + "line_width is 64.5; legal: above 0, at most 64"},
+    {[](Frame& f) { draw(f).point_size = kNan; }, kDraw + "point_size is nan; legal: above 0, at most 2048"},
+    {[](Frame& f) { draw(f).stipple.factor = 0; }, kDraw + "stipple factor is 0; legal: 1 to 256"},
+    {[](Frame& f) { draw(f).stipple.factor = 257; }, kDraw + "stipple factor is 257; legal: 1 to 256"},
     {[](Frame& f) { draw(f).first_index = 1; },
      kDraw + "first_index + index_count is 1 + 6 = 7; legal: at most 6"},
     {[](Frame& f) { draw(f).first_index = 0xFFFFFFFF; },

@@ -1,6 +1,8 @@
 // Does a frame survive the file format, and is the format the documented one?
 #include "halfspace/scene/ptf.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -51,6 +53,13 @@ void check_equal(const Frame& a, const Frame& b) {
     CHECK(s.offset_units == t.offset_units);
     CHECK(s.offset_clamp == t.offset_clamp);
     CHECK(same_bits(s.scissor, t.scissor));
+    CHECK(s.primitive == t.primitive);
+    CHECK(s.polygon_mode == t.polygon_mode);
+    CHECK(s.line_rule == t.line_rule);
+    CHECK(s.line_width == t.line_width);
+    CHECK(s.stipple.factor == t.stipple.factor);
+    CHECK(s.stipple.pattern == t.stipple.pattern);
+    CHECK(s.point_size == t.point_size);
   }
 }
 
@@ -118,6 +127,35 @@ TEST_CASE("every field stands where the format says") {
   const std::size_t vertices = draw + 128;
   CHECK(number(vertices + 16) == -1);
   CHECK(word(vertices + 5 * 16 + 5 * 4) == 3);  // the last index
+}
+
+TEST_CASE("lines and points stand where the format says, and 0 is what files without them mean") {
+  Frame frame = small_frame();
+  const std::size_t draw = 64 + 2 * 32 + 128;
+  std::vector<std::byte> bytes = format_ptf(frame);
+  CHECK(std::all_of(bytes.begin() + draw + 104, bytes.begin() + draw + 128,
+                    [](std::byte byte) { return byte == std::byte{0}; }));
+  Command& command = frame.commands[1];
+  command.primitive = Primitive::kLineStrip;
+  command.polygon_mode = PolygonMode::kPoint;
+  command.line_rule = LineRule::kDiamondExit;
+  command.line_width = 2.5F;
+  command.stipple = {.factor = 3, .pattern = 0xF00D};
+  command.point_size = 0.75F;
+  bytes = format_ptf(frame);
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, 4);
+    return value;
+  };
+  CHECK(word(draw + 20) == 1);  // GL_LINES
+  CHECK(word(draw + 104) == 3);
+  CHECK(word(draw + 108) == 2);
+  CHECK(word(draw + 112) == 2);
+  CHECK(word(draw + 116) == std::bit_cast<std::uint32_t>(2.5F));
+  CHECK(word(draw + 120) == (3u << 16 | 0xF00D));
+  CHECK(word(draw + 124) == std::bit_cast<std::uint32_t>(0.75F));
+  check_equal(parse_ptf(bytes, "lines"), frame);
 }
 
 TEST_CASE("longer headers and records are read, what is unknown in them is passed over") {

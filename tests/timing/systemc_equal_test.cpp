@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "../line_frames.hpp"
 #include "../property/hard_frames.hpp"
 #include "differences.hpp"
 #include "halfspace/core/functional.hpp"
@@ -70,6 +71,19 @@ TEST_CASE("systemc runs a process for what it does, and hardly more", "[timing]"
     actions += early_z.z_misses + 3 * written;  // a write is seen, begins and ends
     CAPTURE(machine, activations, actions);
     CHECK(10 * activations <= 11 * actions);
+  }
+}
+
+TEST_CASE("systemc equals recurrence on lines and points", "[timing]") {
+  const std::uint64_t first = seed();
+  for (std::uint64_t n = 0; n < cases() / 3; ++n) {
+    Random random(first + 100 + n);
+    const Config config = random_config(random);
+    const Frame frame = random_lines(random, takes_thin_lines(config));
+    const StallPlan stalls = random_stalls(random);
+    validate(frame);
+    CAPTURE(first, n);
+    REQUIRE(compare(frame, config, stalls) == "");
   }
 }
 

@@ -58,9 +58,9 @@ void print_command(std::size_t index, const Command& c) {
   fmt::print(
       "{:>6} draw  target {} triangles {} vertices {} func {} viewport {},{} {}x{} scissor {} depth "
       "{}..{}{}\n",
-      index, c.target, c.index_count / 3, c.vertex_count, kFuncNames[static_cast<std::size_t>(c.depth_func)],
-      c.viewport.x, c.viewport.y, c.viewport.z, c.viewport.w, scissor, c.depth_range.x, c.depth_range.y,
-      flag_names(c));
+      index, c.target, c.primitive_count(), c.vertex_count,
+      kFuncNames[static_cast<std::size_t>(c.depth_func)], c.viewport.x, c.viewport.y, c.viewport.z,
+      c.viewport.w, scissor, c.depth_range.x, c.depth_range.y, flag_names(c));
 }
 
 void info(const InfoOptions& options) {
@@ -69,7 +69,7 @@ void info(const InfoOptions& options) {
   std::uint64_t triangles = 0;
   for (const Command& command : frame.commands) {
     draws += command.kind == CommandKind::kDraw ? 1 : 0;
-    triangles += command.kind == CommandKind::kDraw ? command.index_count / 3 : 0;
+    triangles += command.kind == CommandKind::kDraw ? command.primitive_count() : 0;
   }
   fmt::print("{}: {} targets, {} draws, {} clears, {} triangles, {} vertices\n", frame.name,
              frame.targets.size(), draws, frame.commands.size() - draws, triangles, frame.vertices.size());

@@ -154,6 +154,7 @@ CLI::Option* InputOptions::add_input_to(CLI::App& command, const std::string& mo
   for (const char* const other : {"--eye", "--at", "--up", "--fov"}) {
     command.get_option("--camera")->excludes(command.get_option(other));
   }
+  draws.add_to(command);
   return input;
 }
 
@@ -201,7 +202,11 @@ Camera InputOptions::camera() const {
   return camera;
 }
 
-Frame InputOptions::frame() const { return load_input(paths.front(), camera()); }
+Frame InputOptions::frame() const {
+  Frame frame = load_input(paths.front(), camera());
+  draws.apply(frame);
+  return frame;
+}
 
 std::vector<Frame> InputOptions::frames() const {
   const Camera seen_by = camera();
@@ -209,6 +214,7 @@ std::vector<Frame> InputOptions::frames() const {
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
     frames.push_back(load_input(path, seen_by));
+    draws.apply(frames.back());
   }
   return frames;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/cli/draw_options.hpp"
 #include "halfspace/config/config.hpp"
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/run/run.hpp"
@@ -48,7 +49,7 @@ struct ThreadsOption {
   void add_to(CLI::App& command, const std::string& share);
 };
 
-/// INPUT and, for meshes, the camera.
+/// INPUT, how it is drawn and, for meshes, the camera.
 struct InputOptions {
   std::vector<std::string> paths;  ///< one, or more where several are taken
   std::string eye;
@@ -57,6 +58,7 @@ struct InputOptions {
   std::string mesh_camera;
   std::string size;
   double fov_degrees = 60;
+  DrawOptions draws;
 
   void add_to(CLI::App& command);
   /// Takes several, which follow each other.

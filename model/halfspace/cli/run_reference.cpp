@@ -30,7 +30,7 @@ namespace {
 std::uint64_t empty_unfilled_draws(Frame& frame) {
   std::uint64_t emptied = 0;
   for (Command& command : frame.commands) {
-    if (command.kind == CommandKind::kDraw && command.has(Flag::kNotFilled)) {
+    if (command.kind == CommandKind::kDraw && command.is_skipped()) {
       command.index_count = 0;
       ++emptied;
     }
@@ -86,7 +86,7 @@ class ResultBuilder final : public reference::Observer {
       if (command.kind == CommandKind::kDraw) {
         result.frame.draws.push_back({.command = i, .surface = surface, .counters = {}});
         first_triangle_.push_back(triangles_);
-        triangles_ += command.index_count / 3;
+        triangles_ += command.primitive_count();
       } else if (command.has(Flag::kClearDepth) && surface != kNoSurface) {
         ++result.frame.clears;
       }

@@ -21,7 +21,8 @@ constexpr std::size_t kMostPlanes = 1 << 16;
 /// Whether front end and setup have vectors for the draw.
 bool takes_vectors(const DrawContext& draw, const Command& command) {
   const DepthFormat format = draw.setup.depth_format;
-  return !command.has(Flag::kPolygonOffset) && !command.is_unrestricted(format) &&
+  return command.fills_triangles() && !command.has(Flag::kPolygonOffset) &&
+         !command.is_unrestricted(format) &&
          (format == DepthFormat::kNone || draw.setup.interpolator == DepthInterpolator::kPlane);
 }
 
@@ -189,7 +190,7 @@ void FrameRun::set_up(std::span<const ScreenTriangle> triangles) {
     if (!passage::setup(in, *draw_, out)) {
       continue;
     }
-    if (raster_takes(out, walker_)) {
+    if (in.shape == ScreenShape::kTriangle && raster_takes(out, walker_)) {
       set_up_->append(out, *task_.draw, walker_.sub_pixel_bits, task_.draw->early_z.test);
       if (set_up_->count == SetUpTriangles::kMost) {
         flush();

@@ -18,13 +18,14 @@ namespace {
 /// What the front end makes of the triangles of a draw; those that go on are counted behind it.
 void account_front_end(TriangleAccount& account, const Frame& frame, const Command& draw, DepthFormat format,
                        const Config& config) {
-  const std::uint32_t triangles = draw.index_count / 3;
+  const std::uint32_t triangles = draw.primitive_count();
   account.all = triangles;
-  if (draw.has(Flag::kNotFilled)) {
+  if (draw.is_skipped()) {
     account.not_filled = triangles;
     return;
   }
-  const FrontEnd front_end(frame, draw, format, config.raster.sub_pixel_bits, square_reach(config));
+  const FrontEnd front_end(frame, draw, format, config.raster.sub_pixel_bits, fill_rule(draw, config),
+                           square_reach(draw, config));
   FrontEndCounters counters;
   std::vector<ScreenTriangle> pieces;
   for (std::uint32_t i = 0; i < triangles; ++i) {

@@ -45,8 +45,12 @@ PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
   return rect;
 }
 
-int square_reach(const Config& config) {
-  return square_reach(config.raster.conservative, config.raster.uncertainty, config.raster.sub_pixel_bits);
+Conservative conservative(const Command& draw, const Config& config) {
+  return draw.fills_triangles() ? config.raster.conservative : Conservative::kOff;
+}
+
+int square_reach(const Command& draw, const Config& config) {
+  return square_reach(conservative(draw, config), config.raster.uncertainty, config.raster.sub_pixel_bits);
 }
 
 WalkerConfig walker_config(const Config& config) {
@@ -91,18 +95,21 @@ FillRule fill_rule(const Command& draw, const Config& config) {
 
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
   const FillRule rule = fill_rule(draw, config);
+  const bool has_faces = draw.primitive == Primitive::kTriangles;
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .front_positive_area = draw.has(Flag::kFrontPositiveArea),
-          .cull_front = draw.has(Flag::kCullFront),
-          .cull_back = draw.has(Flag::kCullBack),
+          .cull_front = has_faces && draw.has(Flag::kCullFront),
+          .cull_back = has_faces && draw.has(Flag::kCullBack),
           .fill_rule = rule,
-          .conservative = config.raster.conservative,
-          .square_reach = square_reach(config),
+          .conservative = conservative(draw, config),
+          .square_reach = square_reach(draw, config),
           .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
           .depth_format = format,
           .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator,
-          .hi_z = config.hi_z.enabled};
+          .hi_z = config.hi_z.enabled,
+          .line_rule = draw.line_rule,
+          .line_width = thin_width(draw.line_width)};
 }
 
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
@@ -121,7 +128,7 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
                     .format = format,
                     .interpolator = config.depth.interpolator,
                     .sub_pixel_bits = config.raster.sub_pixel_bits,
-                    .square_reach = square_reach(config)};
+                    .square_reach = square_reach(draw, config)};
   state.late = state.write && mode == LateZ::kLate && touches_depth(state);
   return state;
 }

@@ -27,8 +27,10 @@ DepthLimits depth_limits(const Command& draw, DepthFormat format);
 
 WalkerConfig walker_config(const Config& config);
 
-/// That of all draws, see numerics/conservative.hpp; clears have none.
-int square_reach(const Config& config);
+/// Which pixels the triangles of a draw have, and how far the squares reach that decide, see
+/// numerics/conservative.hpp. Lines, points and clears have those whose centres they cover.
+Conservative conservative(const Command& draw, const Config& config);
+int square_reach(const Command& draw, const Config& config);
 
 /// That of the draw, or that of all draws where the configuration has one.
 FillRule fill_rule(const Command& draw, const Config& config);

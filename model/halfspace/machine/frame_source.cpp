@@ -1,9 +1,12 @@
 #include "halfspace/machine/frame_source.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
 #include "halfspace/machine/surfaces.hpp"
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -11,6 +14,21 @@ namespace {
 /// Triangles that the front end makes in one go: enough to amortise, few enough to stay in the processor's
 /// cache.
 constexpr std::uint32_t kFrontEndBatch = 256;
+
+/// Edges of a thin line are no weights, which the barycentric interpolator wants.
+void check_thin_lines(const Frame& frame, const Config& config) {
+  for (std::size_t i = 0; i < frame.commands.size(); ++i) {
+    const Command& command = frame.commands[i];
+    if (command.kind == CommandKind::kDraw && command.draws_thin_lines() &&
+        frame.targets[command.target].depth_surface != kNoSurface &&
+        config.depth.interpolator != DepthInterpolator::kPlane) {
+      throw InputError(
+          fmt::format("{}: command {} draws lines by the rule {}, and depth.interpolator is barycentric; "
+                      "legal with it: plane",
+                      frame.name, i, kLineRuleName[static_cast<std::size_t>(command.line_rule)]));
+    }
+  }
+}
 
 }  // namespace
 
@@ -25,6 +43,7 @@ FrameSource::FrameSource(const Frame& frame, const Config& config, PacketObserve
   surfaces_of_targets_ = surfaces_of_targets(frame, surfaces);
   depth_written_.assign(surfaces.size(), false);
   unrestricted_.assign(surfaces.size(), false);
+  check_thin_lines(frame, config);
   for (const Command& command : frame.commands) {
     const bool is_draw = command.kind == CommandKind::kDraw;
     draws_in_frame_ += is_draw ? 1 : 0;
@@ -114,14 +133,15 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
     tell_done_ = true;
   }
   draw_ = &draw;
-  if (command.has(Flag::kNotFilled)) {
+  if (command.is_skipped()) {
     ++result_.draws_not_filled;
   } else {
-    front_end_.emplace(frame_, command, format, config_.raster.sub_pixel_bits, square_reach(config_));
-    triangle_count_ = command.index_count / 3;
+    front_end_.emplace(frame_, command, format, config_.raster.sub_pixel_bits, fill_rule(command, config_),
+                       square_reach(command, config_));
+    triangle_count_ = command.primitive_count();
     next_triangle_ = 0;
   }
-  first_triangle_ += command.index_count / 3;
+  first_triangle_ += command.primitive_count();
 }
 
 void FrameSource::begin_clear(const Command& command) {

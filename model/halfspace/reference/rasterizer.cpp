@@ -219,6 +219,8 @@ void check(const Frame& frame, const Options& options) {
     require(c.target < frame.targets.size(),
             where + ": target " + std::to_string(c.target) + " does not exist");
     if (c.kind != CommandKind::kDraw) continue;
+    require(c.primitive == Primitive::kTriangles && c.polygon_mode == PolygonMode::kFill,
+            where + ": it draws lines or points; legal for a reference: triangles that are filled");
     require(is_finite(c.viewport), where + ": viewport is not finite");
     require(std::uint64_t{c.first_index} + c.index_count <= frame.indices.size(),
             where + ": indices end early");

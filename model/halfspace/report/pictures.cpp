@@ -58,7 +58,7 @@ class DrawLookup {
     for (std::uint32_t i = 0; i < frame.commands.size(); ++i) {
       if (frame.commands[i].kind == CommandKind::kDraw) {
         first_.emplace_back(next, i);
-        next += frame.commands[i].index_count / 3;
+        next += frame.commands[i].primitive_count();
       }
     }
   }
@@ -73,6 +73,9 @@ class DrawLookup {
 };
 
 glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t triangle) {
+  if (draw.primitive != Primitive::kTriangles) {
+    return {0, 0, 1};  // lines and points face the eye
+  }
   constexpr float kTangent = 0.57735f;  // of half the assumed view of 60 degrees
   const float aspect = std::abs(draw.viewport.z / draw.viewport.w);
   std::array<glm::vec3, 3> v;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/numerics/line_rule.hpp"
 
 namespace halfspace {
 
@@ -79,7 +80,7 @@ struct Command {
   std::uint32_t flags = 0;
   DepthFunc depth_func = DepthFunc::kAlways;
   std::uint32_t first_index = 0;
-  std::uint32_t index_count = 0;  ///< a multiple of 3
+  std::uint32_t index_count = 0;  ///< a multiple of indices_each()
   std::uint32_t first_vertex = 0;
   std::uint32_t vertex_count = 0;
   glm::vec4 viewport{0};        ///< x, y, width, height in pixels; the height is negative for y-up programs
@@ -89,8 +90,28 @@ struct Command {
   float offset_units = 0;
   float offset_clamp = 0;
   Scissor scissor;  ///< of a clear: the cleared rectangle
+  Primitive primitive = Primitive::kTriangles;
+  PolygonMode polygon_mode = PolygonMode::kFill;  ///< where it is kFill, Flag::kNotFilled skips the draw
+  LineRule line_rule = LineRule::kRectangular;
+  float line_width = 1;  ///< pixels; thin lines round it
+  LineStipple stipple;
+  float point_size = 1;  ///< pixels: the side of a square
 
   [[nodiscard]] bool has(Flag flag) const { return (flags & static_cast<std::uint32_t>(flag)) != 0; }
+
+  [[nodiscard]] std::uint32_t indices_each() const { return halfspace::indices_each(primitive); }
+  [[nodiscard]] std::uint32_t primitive_count() const { return index_count / indices_each(); }
+  /// Triangles of the input are drawn as triangles.
+  [[nodiscard]] bool fills_triangles() const {
+    return primitive == Primitive::kTriangles && polygon_mode == PolygonMode::kFill;
+  }
+  [[nodiscard]] bool draws_lines() const {
+    return primitive == Primitive::kLines || primitive == Primitive::kLineStrip ||
+           (primitive == Primitive::kTriangles && polygon_mode == PolygonMode::kLine);
+  }
+  [[nodiscard]] bool draws_thin_lines() const { return draws_lines() && is_thin(line_rule); }
+  /// The draw is skipped: how its polygons are drawn is not known.
+  [[nodiscard]] bool is_skipped() const { return fills_triangles() && has(Flag::kNotFilled); }
 
   /// On float32 surfaces a draw's depth range, and what a clear sets depth to, may leave [0, 1]
   /// (VK_EXT_depth_range_unrestricted; OpenGL's NV_depth_buffer_float).
@@ -107,9 +128,9 @@ struct Frame {
   std::vector<Target> targets;
   std::vector<Command> commands;
   std::vector<glm::vec4> vertices;     ///< clip space
-  std::vector<std::uint32_t> indices;  ///< relative to the draw's first_vertex, three a triangle
+  std::vector<std::uint32_t> indices;  ///< relative to the draw's first_vertex
   std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
-  std::vector<std::string> left_out;   ///< what of the input is not in the frame: "points and lines (3)"
+  std::vector<std::string> left_out;   ///< what of the input is not in the frame: "free-form curves (3)"
   std::vector<std::string> cameras;    ///< names of the cameras that stand in the mesh's file
 };
 

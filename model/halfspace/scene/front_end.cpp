@@ -8,8 +8,11 @@
 namespace halfspace {
 namespace {
 
-/// Pixels to each side of the origin of the window; 16 integer bits would hold one more.
-constexpr double kGuardBand = 32767;
+/// 16 integer bits would hold a pixel more. Half of a line's width has room beyond.
+double guard_band(const Command& draw) {
+  constexpr double kGuardBand = 32767;
+  return draw.draws_lines() ? kGuardBand - kMaxLineWidth / 2 - 1 : kGuardBand;
+}
 
 bool finite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -25,13 +28,19 @@ double far_depth(const DepthRange& range) {
 
 }  // namespace
 
+FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits)
+    : FrontEnd(frame, draw, format, sub_pixel_bits,
+               draw.has(Flag::kBottomLeftRule) ? FillRule::kBottomLeft : FillRule::kTopLeft) {}
+
 FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
-                   int square_reach)
+                   FillRule rule, int square_reach)
     : frame_(frame),
       draw_(draw),
       format_(format),
       sub_pixel_bits_(sub_pixel_bits),
       square_reach_(square_reach),
+      rule_(rule),
+      guard_band_(guard_band(draw)),
       sub_pixels_(1 << sub_pixel_bits),
       screen_({.x_last = static_cast<std::int32_t>(frame.targets[draw.target].width) - 1,
                .y_last = static_cast<std::int32_t>(frame.targets[draw.target].height) - 1}),
@@ -52,20 +61,25 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
     constexpr double kLargest = std::numeric_limits<float>::max();
     limits_ = {-kLargest, kLargest};
   }
+  add_planes();
+  count_stipple();
+}
 
-  const double x_half = draw.viewport.z / 2.0;
-  const double y_half = draw.viewport.w / 2.0;
-  const double x_centre = draw.viewport.x + x_half;
-  const double y_centre = draw.viewport.y + y_half;
+void FrontEnd::add_planes() {
+  const bool symmetric = draw_.has(Flag::kNdcZMinusOneToOne);
+  const double x_half = draw_.viewport.z / 2.0;
+  const double y_half = draw_.viewport.w / 2.0;
+  const double x_centre = draw_.viewport.x + x_half;
+  const double y_centre = draw_.viewport.y + y_half;
   if (!depth_clamp_) {
     planes_[plane_count_++] = symmetric ? Clip(0, 0, 1, 1) : Clip(0, 0, 1, 0);
     planes_[plane_count_++] = Clip(0, 0, -1, 1);
   }
   // -G <= x / w * x_half + x_centre <= G, multiplied by w; together they also demand w >= 0
-  planes_[plane_count_++] = Clip(x_half, 0, 0, kGuardBand + x_centre);
-  planes_[plane_count_++] = Clip(-x_half, 0, 0, kGuardBand - x_centre);
-  planes_[plane_count_++] = Clip(0, y_half, 0, kGuardBand + y_centre);
-  planes_[plane_count_++] = Clip(0, -y_half, 0, kGuardBand - y_centre);
+  planes_[plane_count_++] = Clip(x_half, 0, 0, guard_band_ + x_centre);
+  planes_[plane_count_++] = Clip(-x_half, 0, 0, guard_band_ - x_centre);
+  planes_[plane_count_++] = Clip(0, y_half, 0, guard_band_ + y_centre);
+  planes_[plane_count_++] = Clip(0, -y_half, 0, guard_band_ - y_centre);
 }
 
 FrontEnd::Window FrontEnd::to_window(const Clip& v) const {
@@ -73,15 +87,35 @@ FrontEnd::Window FrontEnd::to_window(const Clip& v) const {
           draw_.viewport.y + (v.y / v.w + 1) * draw_.viewport.w / 2, v.z / v.w * z_scale_ + z_bias_};
 }
 
+bool FrontEnd::read(std::uint32_t at, Clip& vertex, FrontEndCounters& counters) const {
+  const std::uint32_t index = frame_.indices[std::size_t{draw_.first_index} + at];
+  const glm::vec4& v = frame_.vertices[std::size_t{draw_.first_vertex} + index];
+  vertex = v;
+  const bool is_finite = finite(v);
+  counters.non_finite += is_finite ? 0 : 1;
+  return is_finite;
+}
+
 void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
                        FrontEndCounters& counters) const {
   ++counters.triangles;
+  switch (draw_.primitive) {
+    case Primitive::kTriangles:
+      return process_triangle(index, out, counters);
+    case Primitive::kLines:
+    case Primitive::kLineStrip:
+      return process_line(index, out, counters);
+    case Primitive::kPoints:
+      return process_point(index, out, counters);
+  }
+}
+
+void FrontEnd::process_triangle(std::uint32_t index, std::vector<ScreenTriangle>& out,
+                                FrontEndCounters& counters) const {
   Polygon<Clip> polygon;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const std::size_t at = std::size_t{draw_.first_index} + std::size_t{index} * 3 + i;
-    const glm::vec4& v = frame_.vertices[std::size_t{draw_.first_vertex} + frame_.indices[at]];
-    if (!finite(v)) {
-      ++counters.non_finite;
+    Clip v;
+    if (!read(index * 3 + i, v, counters)) {
       return;
     }
     polygon.push(v);
@@ -110,8 +144,8 @@ void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
     Window v = to_window(polygon.v[i]);
     // A cut lies on the guard band up to rounding, which for vertices many orders of magnitude apart can be
     // pixels.
-    v.x = std::clamp(v.x, -kGuardBand, kGuardBand);
-    v.y = std::clamp(v.y, -kGuardBand, kGuardBand);
+    v.x = std::clamp(v.x, -guard_band_, guard_band_);
+    v.y = std::clamp(v.y, -guard_band_, guard_band_);
     window.push(v);
   }
   emit_fan(window, index, out, counters);
@@ -120,6 +154,9 @@ void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
 void FrontEnd::emit_fan(const Polygon<Window>& polygon, std::uint32_t index, std::vector<ScreenTriangle>& out,
                         FrontEndCounters& counters) const {
   const double unit = polygon_offset_ ? offset_unit(polygon) : 0;
+  if (draw_.polygon_mode != PolygonMode::kFill) {
+    return emit_outline(polygon, unit, index, out, counters);
+  }
   for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
     emit({polygon.v[0], polygon.v[i], polygon.v[i + 1]}, unit, index, out, counters);
   }
@@ -132,25 +169,28 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
     triangle.v[i].x = static_cast<std::int32_t>(std::lrint(corner[i].x * sub_pixels_));
     triangle.v[i].y = static_cast<std::int32_t>(std::lrint(corner[i].y * sub_pixels_));
   }
-  if (format_ != DepthFormat::kNone) {
-    std::array<double, 3> z{corner[0].z, corner[1].z, corner[2].z};
-    if (!depth_clamp_) {
-      for (double& depth : z) {
-        depth = std::clamp(depth, z_least_, z_most_);  // clipped to it, up to rounding
-      }
+  std::array<double, 3> z{corner[0].z, corner[1].z, corner[2].z};
+  if (!depth_clamp_) {
+    for (double& depth : z) {
+      depth = std::clamp(depth, z_least_, z_most_);  // clipped to it, up to rounding
     }
+  }
+  emit_snapped(triangle, z, polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0, out, counters);
+}
+
+void FrontEnd::emit_snapped(ScreenTriangle triangle, std::array<double, 3> z, double offset,
+                            std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const {
+  if (format_ != DepthFormat::kNone) {
     const SampleGrid grid{
         .sub_pixel_bits = sub_pixel_bits_, .square_reach = square_reach_, .screen = screen_};
-    double offset = polygon_offset_ ? offset_of(triangle, z, offset_unit) : 0;
-    const auto is_far = [this](double depth) { return !(std::abs(depth) < far_); };
-    if (is_far(offset) || std::ranges::any_of(z, is_far)) {
+    if (is_far(offset) || std::ranges::any_of(z, [this](double depth) { return is_far(depth); })) {
       for (double& depth : z) {
         depth += offset;
       }
       offset = 0;
     }
     const std::size_t before = out.size();
-    if (std::ranges::any_of(z, is_far)) {
+    if (std::ranges::any_of(z, [this](double depth) { return is_far(depth); })) {
       emit_far(triangle, z, limits_, format_, grid, out);
       counters.emitted += out.size() - before;
       ++counters.far_depth;

@@ -24,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "PTF1 is copied to and
 
 constexpr std::array<char, 4> kMagic{'P', 'T', 'F', '1'};
 constexpr std::uint32_t kVersion = 1;
-constexpr std::uint32_t kTriangleList = 4;  // as in OpenGL
+constexpr std::array<std::uint32_t, 4> kTopology{4, 1, 0, 1};  // by primitive, as in OpenGL: lists
 
 struct FileHeader {
   std::array<char, 4> magic = kMagic;
@@ -73,7 +73,13 @@ struct FileCommand {
   float offset_units = 0;
   float offset_clamp = 0;
   std::array<std::int32_t, 4> scissor{};
-  std::array<std::uint32_t, 6> reserved{};
+  std::uint32_t primitive = 0;
+  std::uint32_t polygon_mode = 0;
+  std::uint32_t line_rule = 0;
+  float line_width = 0;  // 0: 1
+  std::uint16_t stipple_pattern = 0;
+  std::uint16_t stipple_factor = 0;  // 0: no stipple
+  float point_size = 0;              // 0: 1
 };
 static_assert(sizeof(FileCommand) == 128);
 static_assert(sizeof(glm::vec4) == 16);
@@ -159,6 +165,13 @@ FileTarget from_target(const Target& in) {
           .depth_surface = in.depth_surface};
 }
 
+float or_one(float value) { return value == 0 ? 1 : value; }
+
+LineStipple to_stipple(const FileCommand& in) {
+  return in.stipple_factor == 0 ? LineStipple{}
+                                : LineStipple{.factor = in.stipple_factor, .pattern = in.stipple_pattern};
+}
+
 Command to_command(const FileCommand& in) {
   return {.kind = CommandKind{in.kind},
           .source_event = in.source_event,
@@ -175,16 +188,25 @@ Command to_command(const FileCommand& in) {
           .offset_factor = in.offset_factor,
           .offset_units = in.offset_units,
           .offset_clamp = in.offset_clamp,
-          .scissor = {in.scissor[0], in.scissor[1], in.scissor[2], in.scissor[3]}};
+          .scissor = {in.scissor[0], in.scissor[1], in.scissor[2], in.scissor[3]},
+          .primitive = Primitive{in.primitive},
+          .polygon_mode = PolygonMode{in.polygon_mode},
+          .line_rule = LineRule{in.line_rule},
+          .line_width = or_one(in.line_width),
+          .stipple = to_stipple(in),
+          .point_size = or_one(in.point_size)};
 }
 
 FileCommand from_command(const Command& in) {
+  const auto or_zero = [](float value) { return value == 1 ? 0 : value; };
+  const bool stippled = !in.stipple.draws_all();
   return {.kind = static_cast<std::uint32_t>(in.kind),
           .source_event = in.source_event,
           .target = in.target,
           .flags = in.flags,
           .depth_func = static_cast<std::uint32_t>(in.depth_func),
-          .source_topology = in.kind == CommandKind::kDraw ? kTriangleList : 0,
+          .source_topology =
+              in.kind == CommandKind::kDraw ? kTopology[static_cast<std::size_t>(in.primitive)] : 0,
           .first_index = in.first_index,
           .index_count = in.index_count,
           .first_vertex = in.first_vertex,
@@ -195,7 +217,14 @@ FileCommand from_command(const Command& in) {
           .offset_factor = in.offset_factor,
           .offset_units = in.offset_units,
           .offset_clamp = in.offset_clamp,
-          .scissor = {in.scissor.x, in.scissor.y, in.scissor.width, in.scissor.height}};
+          .scissor = {in.scissor.x, in.scissor.y, in.scissor.width, in.scissor.height},
+          .primitive = static_cast<std::uint32_t>(in.primitive),
+          .polygon_mode = static_cast<std::uint32_t>(in.polygon_mode),
+          .line_rule = static_cast<std::uint32_t>(in.line_rule),
+          .line_width = or_zero(in.line_width),
+          .stipple_pattern = static_cast<std::uint16_t>(stippled ? in.stipple.pattern : 0),
+          .stipple_factor = static_cast<std::uint16_t>(stippled ? in.stipple.factor : 0),
+          .point_size = or_zero(in.point_size)};
 }
 
 /// Copies an array of plain elements out of its section.

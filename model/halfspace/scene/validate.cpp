@@ -147,6 +147,29 @@ void check_range(const Place& place, std::string_view first_field, std::uint32_t
   }
 }
 
+/// `names`: a table with an entry for each value.
+void check_name(const Place& place, std::string_view field, std::uint32_t value, std::size_t names) {
+  if (value >= names) place.fail("{} is {}; legal: 0 to {}", field, value, names - 1);
+}
+
+void check_extent(const Place& place, std::string_view field, float value, int most) {
+  if (!(value > 0 && value <= static_cast<float>(most))) {
+    place.fail("{} is {}; legal: above 0, at most {}", field, value, most);
+  }
+}
+
+/// How lines and points are drawn.
+void check_lines(const Place& place, const Command& draw) {
+  check_name(place, "primitive", static_cast<std::uint32_t>(draw.primitive), kPrimitiveName.size());
+  check_name(place, "polygon_mode", static_cast<std::uint32_t>(draw.polygon_mode), kPolygonModeName.size());
+  check_name(place, "line_rule", static_cast<std::uint32_t>(draw.line_rule), kLineRuleName.size());
+  check_extent(place, "line_width", draw.line_width, kMaxLineWidth);
+  check_extent(place, "point_size", draw.point_size, kMaxPointSize);
+  if (draw.stipple.factor < 1 || draw.stipple.factor > kMaxStippleFactor) {
+    place.fail("stipple factor is {}; legal: 1 to {}", draw.stipple.factor, kMaxStippleFactor);
+  }
+}
+
 void check_draw(const Place& place, const Frame& frame, const Command& draw) {
   if (static_cast<std::uint32_t>(draw.depth_func) > static_cast<std::uint32_t>(DepthFunc::kAlways)) {
     place.fail("depth_func is {}; legal: 0 to 7", static_cast<std::uint32_t>(draw.depth_func));
@@ -155,7 +178,10 @@ void check_draw(const Place& place, const Frame& frame, const Command& draw) {
     place.fail("flags are {:#x}, depth_write without depth_test; legal: depth_write only with depth_test",
                draw.flags);
   }
-  if (draw.index_count % 3 != 0) place.fail("index_count is {}; legal: a multiple of 3", draw.index_count);
+  check_lines(place, draw);
+  if (draw.index_count % draw.indices_each() != 0) {
+    place.fail("index_count is {}; legal: a multiple of {}", draw.index_count, draw.indices_each());
+  }
   check_range(place, "first_index", draw.first_index, "index_count", draw.index_count, frame.indices.size());
   check_range(place, "first_vertex", draw.first_vertex, "vertex_count", draw.vertex_count,
               frame.vertices.size());
@@ -194,11 +220,11 @@ void validate(const Frame& frame) {
     }
     check_state(place, command, frame.targets[command.target].depth_format);
     if (!draw) continue;
-    triangles += command.index_count / 3;
+    check_draw(place, frame, command);
+    triangles += command.primitive_count();
     if (triangles > kMaxFrameTriangles) {
       place.fail("triangles up to here are {}; legal: at most {} in a frame", triangles, kMaxFrameTriangles);
     }
-    check_draw(place, frame, command);
     const Target& target = frame.targets[command.target];
     if (target.depth_surface != kNoSurface || drawn_to[command.target]) continue;
     drawn_to[command.target] = true;

@@ -176,6 +176,13 @@ class EglLlvmpipe final : public Llvmpipe {
   void load(const Frame& frame, const Config& config) override {
     for (std::size_t i = 0; i < frame.commands.size(); ++i) {
       const Command& command = frame.commands[i];
+      if (command.kind == CommandKind::kDraw && !command.fills_triangles()) {
+        throw InputError(
+            fmt::format("{}: command {}: it draws lines or points, which OpenGL ES does by rules of its own: "
+                        "leave it out "
+                        "(--without llvmpipe)",
+                        frame.name, i));
+      }
       if (command.is_unrestricted(frame.targets[command.target].depth_format)) {
         throw InputError(
             fmt::format("{}: command {}: its depth leaves 0 to 1; llvmpipe would clamp it: leave it out "

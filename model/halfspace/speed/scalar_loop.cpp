@@ -1,5 +1,7 @@
 #include "halfspace/speed/scalar_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,6 +10,7 @@
 
 #include "halfspace/machine/frame_source.hpp"
 #include "halfspace/machine/surfaces.hpp"
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -202,6 +205,13 @@ ScalarCounts draw_other(const ScalarDraw& draw, int sub_pixel_bits, float* depth
 
 ScalarLoop::ScalarLoop(const Frame& frame, const Config& config)
     : sub_pixel_bits_(config.raster.sub_pixel_bits) {
+  for (std::size_t i = 0; i < frame.commands.size(); ++i) {
+    const Command& command = frame.commands[i];
+    if (command.kind == CommandKind::kDraw && command.draws_thin_lines()) {
+      throw InputError(fmt::format("{}: command {}: it draws thin lines, and the scalar loop triangles alone",
+                                   frame.name, i));
+    }
+  }
   FrameResult result;
   result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   std::deque<DrawContext> contexts;

@@ -41,12 +41,19 @@ constexpr PixelRect intersect(const PixelRect& l, const PixelRect& r) {
 inline constexpr PixelRect kWholeScreen{.x_last = (1 << Widths{}.PixelBits) - 1,
                                         .y_last = (1 << Widths{}.PixelBits) - 1};
 
-/// front end -> setup: a triangle on the sub-pixel grid, in API vertex order.
+/// What the vertices of a ScreenTriangle are.
+enum class ScreenShape : std::uint8_t {
+  kTriangle,
+  kThinLine,  ///< from vertex 0 to vertex 1, by the rule of its draw (units/line_setup.hpp)
+};
+
+/// front end -> setup: a triangle on the sub-pixel grid, in API vertex order, or a thin line.
 struct ScreenTriangle {
   std::array<ScreenVertex, 3> v;
   std::uint32_t triangle = 0;       ///< index of the source triangle in its draw; clipping may repeat it
   std::int64_t offset = 0;          ///< added to the depth of each fragment; in the form of z
   PixelRect within = kWholeScreen;  ///< the pixels that are drawn
+  ScreenShape shape = ScreenShape::kTriangle;
 };
 
 /// One edge equation: inside is E >= 0, because the fill rule is folded into c.

@@ -5,17 +5,10 @@
 #include <utility>
 
 #include "halfspace/units/hi_z_plane.hpp"
+#include "halfspace/units/line_setup.hpp"
 
 namespace halfspace {
 namespace {
-
-std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v) {
-  const std::int64_t abx = v[1].x - v[0].x;
-  const std::int64_t aby = v[1].y - v[0].y;
-  const std::int64_t acx = v[2].x - v[0].x;
-  const std::int64_t acy = v[2].y - v[0].y;
-  return abx * acy - acx * aby;
-}
 
 /// Starts the cycle at the topmost, then leftmost vertex, so that equal triangles give equal equations.
 void rotate_to_first(std::array<ScreenVertex, 3>& v) {
@@ -26,6 +19,23 @@ void rotate_to_first(std::array<ScreenVertex, 3>& v) {
 }
 
 }  // namespace
+
+std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v) {
+  const std::int64_t abx = v[1].x - v[0].x;
+  const std::int64_t aby = v[1].y - v[0].y;
+  const std::int64_t acx = v[2].x - v[0].x;
+  const std::int64_t acy = v[2].y - v[0].y;
+  return abx * acy - acx * aby;
+}
+
+Edge edge_opposite(const std::array<ScreenVertex, 3>& v, std::size_t i, int sub_pixel_bits) {
+  const std::int64_t centre = std::int64_t{1} << (sub_pixel_bits - 1);
+  const ScreenVertex& from = v[(i + 1) % 3];
+  const ScreenVertex& to = v[(i + 2) % 3];
+  Edge edge{.a = from.y - to.y, .b = to.x - from.x};
+  edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y);
+  return edge;
+}
 
 PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach) {
   const auto [x_min, x_max] = std::minmax({v[0].x, v[1].x, v[2].x});
@@ -39,6 +49,9 @@ PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits
 }
 
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out) {
+  if (in.shape == ScreenShape::kThinLine) {
+    return line_setup(in, state, out);
+  }
   std::array<ScreenVertex, 3> v = in.v;
   std::int64_t area2 = twice_signed_area(v);
   const bool flat = area2 == 0;
@@ -68,17 +81,12 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   }
   rotate_to_first(v);
 
-  const std::int64_t centre = std::int64_t{1} << (state.sub_pixel_bits - 1);
   for (std::size_t i = 0; i < 3; ++i) {
-    const ScreenVertex& from = v[(i + 1) % 3];
-    const ScreenVertex& to = v[(i + 2) % 3];
     Edge& edge = out.edge[i];
-    edge.a = from.y - to.y;
-    edge.b = to.x - from.x;
+    edge = edge_opposite(v, i, state.sub_pixel_bits);
     const bool owns =
         state.conservative != Conservative::kOff || owns_its_samples(edge.a, edge.b, state.fill_rule);
-    edge.c = edge.a * (centre - from.x) + edge.b * (centre - from.y) +
-             to_square(edge.a, edge.b, state.square_reach) - (owns ? 0 : 1);
+    edge.c += to_square(edge.a, edge.b, state.square_reach) - (owns ? 0 : 1);
     out.depth.bias[i] = owns ? 0 : 1;
   }
   out.triangle = in.triangle;

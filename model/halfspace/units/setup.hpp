@@ -8,6 +8,7 @@
 #include "halfspace/numerics/conservative.hpp"
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/numerics/fill_rule.hpp"
+#include "halfspace/numerics/line_rule.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -27,7 +28,9 @@ struct SetupState {
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
-  bool hi_z = false;  ///< make HiZPlane too, where the interpolator has a plane
+  bool hi_z = false;                          ///< make HiZPlane too, where the interpolator has a plane
+  LineRule line_rule = LineRule::kBresenham;  ///< of thin lines
+  int line_width = 1;                         ///< of thin lines, in fragments
 };
 
 enum class SetupVerdict : std::uint8_t {
@@ -42,10 +45,17 @@ enum class SetupVerdict : std::uint8_t {
 /// each side.
 PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach = 0);
 
-/// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
-/// bits). A triangle without area faces back, and has pixels where they are outer ones, all with the depth of
-/// its first vertex. Neither the order of the vertices nor which one comes first changes what is drawn or its
-/// depth.
+/// Twice the signed area, positive clockwise on the screen.
+std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v);
+
+/// The edge opposite to vertex i of a triangle of positive area, without a fill rule: E / 2A is the vertex's
+/// weight.
+Edge edge_opposite(const std::array<ScreenVertex, 3>& v, std::size_t i, int sub_pixel_bits);
+
+/// Fills `out` when the verdict is kDrawn. Thin lines go through line_setup(). Vertices must be inside the
+/// guard band (16 + sub_pixel_bits signed bits). A triangle without area faces back, and has pixels where
+/// they are outer ones, all with the depth of its first vertex. Neither the order of the vertices nor which
+/// one comes first changes what is drawn or its depth.
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out);
 
 }  // namespace halfspace

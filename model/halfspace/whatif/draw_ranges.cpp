@@ -21,9 +21,9 @@ bool keeps_least(const Command& draw) {
 }
 
 bool may_move(const Frame& frame, const Command& command) {
-  return command.kind == CommandKind::kDraw && frame.targets[command.target].depth_surface != kNoSurface &&
-         command.has(Flag::kDepthTest) && command.has(Flag::kDepthWrite) &&
-         (keeps_least(command) || keeps_largest(command)) &&
+  return command.kind == CommandKind::kDraw && command.fills_triangles() &&
+         frame.targets[command.target].depth_surface != kNoSurface && command.has(Flag::kDepthTest) &&
+         command.has(Flag::kDepthWrite) && (keeps_least(command) || keeps_largest(command)) &&
          !has_any(command, {Flag::kBlend, Flag::kShaderDiscards, Flag::kShaderWritesDepth, Flag::kStencilTest,
                             Flag::kAlphaToCoverage, Flag::kNotFilled, Flag::kShaderSideEffects});
 }
