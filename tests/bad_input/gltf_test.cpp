@@ -95,18 +95,14 @@ const GltfRule kGltfRules[] = {
      "f: node 0: scale has 4 numbers; legal: 3"},
     {[](json& j) { j["nodes"][0]["mesh"] = 1; }, "f: mesh is 1; legal: 0 or more and below 1"},
     {[](json& j) { j["nodes"][0].erase("mesh"); },
-     "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle or more"},
-    {[](json& j) { primitive(j)["mode"] = 1; },
-     "f: mesh has 0 vertices and 0 triangles, without primitives of points or lines (1); legal: 1 triangle "
-     "or "
-     "more"},
+     "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle, line or point or more"},
     {[](json& j) { primitive(j)["mode"] = 7; }, "f: primitive mode is 7; legal: 0 to 6"},
     {[](json& j) { primitive(j)["material"] = 0; }, "f: material is 0; legal: 0 or more and below 0"},
     {[](json& j) {
        primitive(j)["attributes"] = {{"NORMAL", 0}};
      },
-     "f: mesh has 0 vertices and 0 triangles, without primitives without positions (1); legal: 1 triangle or "
-     "more"},
+     "f: mesh has 0 vertices and 0 triangles, without primitives without positions (1); legal: 1 triangle, "
+     "line or point or more"},
     {[](json& j) { primitive(j).erase("attributes"); },
      "f: mesh 0 primitives: attributes is missing; legal: an object"},
     {[](json& j) { primitive(j)["attributes"]["POSITION"] = 2; },

@@ -21,10 +21,13 @@ std::string error_of_obj(const std::string& text) {
 TEST_CASE("malformed OBJ files are refused") {
   const std::string legal_corner = "; legal: v, v/t, v//n or v/t/n with v from 1, or from -1 down";
   const std::pair<std::string, std::string> cases[] = {
-      {"", "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle or more"},
-      {kPoints, "f: mesh has 3 vertices and 0 triangles; legal: 1 triangle or more"},
-      {kPoints + "p 1\nl 1 2\n",
-       "f: mesh has 3 vertices and 0 triangles, without points and lines (2); legal: 1 triangle or more"},
+      {"", "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle, line or point or more"},
+      {kPoints, "f: mesh has 3 vertices and 0 triangles; legal: 1 triangle, line or point or more"},
+      {kPoints + "l 1\n",
+       "f: mesh has 3 vertices and 0 triangles, without lines with fewer than two vertices (1); legal: 1 "
+       "triangle, line or point or more"},
+      {kPoints + "p 4\n", "f: line 4: corner 0 is vertex 4; legal: 1 to 3, the vertices up to here"},
+      {kPoints + "l 1 x\n", "f: line 4: corner 1 is \"x\"" + legal_corner},
       {"v 0 0\n", "f: line 1: coordinate 2 is \"\"; legal: three numbers"},
       {"\n# x\r\nv 0 zero 0\n", "f: line 3: coordinate 1 is \"zero\"; legal: three numbers"},
       {"v 0 1,5 0", "f: line 1: coordinate 1 is \"1,5\"; legal: three numbers"},
@@ -38,7 +41,7 @@ TEST_CASE("malformed OBJ files are refused") {
       {"v 0 1.5f 0", "f: line 1: coordinate 1 is \"1.5f\"; legal: three numbers"},
       {kPoints + "f 1 2\nf 2",
        "f: mesh has 3 vertices and 0 triangles, without faces with fewer than three corners (2); legal: 1 "
-       "triangle or more"},
+       "triangle, line or point or more"},
       {kPoints + "f 1 2 4", "f: line 4: corner 2 is vertex 4; legal: 1 to 3, the vertices up to here"},
       {kPoints + "f 1 2 -4", "f: line 4: corner 2 is vertex -4; legal: 1 to 3, the vertices up to here"},
       {kPoints + "f 1 0 2", "f: line 4: corner 1 is \"0\"" + legal_corner},

@@ -59,7 +59,7 @@ TEST_CASE("malformed PLY headers are refused") {
        "f: header line 4: list is counted in a floating-point type; legal: an integer type"},
       {header("element a 1\n"), "f: element \"a\" has no property; legal: one or more"},
       {header("element vertex 0\n" + kXyz + "element vertex 0\n" + kXyz),
-       "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle or more"},
+       "f: mesh has 0 vertices and 0 triangles; legal: 1 triangle, line or point or more"},
       {header("element vertex 1\n" + kXyz + "element vertex 1\n" + kXyz) + "0 0 0 0 0 0",
        "f: header has a second element \"vertex\"; legal: one"},
       {header("element vertex 1\nproperty float x\nproperty float y\n") + "0 0",
@@ -86,7 +86,7 @@ TEST_CASE("malformed PLY bodies are refused") {
       {triangle("3 0 1 2x"), "f: body has \"2x\"; legal: a number"},
       {triangle("2 0 1"),
        "f: mesh has 3 vertices and 0 triangles, without faces with fewer than three corners (1); legal: 1 "
-       "triangle or more"},
+       "triangle, line or point or more"},
       {triangle("3 0 1 3"), "f: face 0 has vertex 3; legal: below 3"},
       {triangle("3 0 1 -1"), "f: face 0 has vertex -1; legal: below 3"},
       {triangle("3 0 1 9223372036854775807"), "f: face 0 has vertex 9223372036854775807; legal: below 3"},
@@ -97,8 +97,9 @@ TEST_CASE("malformed PLY bodies are refused") {
       {triangle("3e9 0 1 2"),
        "f: property \"vertex_indices\" is a list of 3000000000 values; legal: 0 to 2147483647"},
       {triangle("1e9 0 1 2"), "f: mesh has 999999998 triangles or more; legal: at most 33554432"},
-      {header("element vertex 3\n" + kXyz) + kBody,
-       "f: mesh has 3 vertices and 0 triangles; legal: 1 triangle or more"},
+      {header("element vertex 3\n" + kXyz + "element face 0\nproperty list uchar int vertex_index\n") +
+           "0 0 0 1 0 0 0 1 0\n",
+       "f: mesh has 3 vertices and 0 triangles; legal: 1 triangle, line or point or more"},
   };
   for (const auto& [text, error] : cases) CHECK(error_of_ply(text) == error);
 }

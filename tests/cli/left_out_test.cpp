@@ -9,11 +9,11 @@ using namespace halfspace::testing;
 TEST_CASE("what a reader leaves out is said on stderr by every subcommand, and by info in its listing") {
   const Place place;
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  std::ofstream(place.path / "odd.obj") << triangle << "p 1\nl 1 2\nl 2 3\nf 1 2\n";
+  std::ofstream(place.path / "odd.obj") << triangle << "curv 0 1 1 2\ncdc 1 2 3\ncurv2 1 2\nf 1 2\n";
   std::ofstream(place.path / "clean.obj") << triangle;
   const std::string odd = (place.path / "odd.obj").string();
   const std::string clean = (place.path / "clean.obj").string();
-  const std::string what = "left out: faces with fewer than three corners (1), points and lines (3)\n";
+  const std::string what = "left out: faces with fewer than three corners (1), free-form curves (3)\n";
   const std::string line = "halfspace: " + odd + ": " + what;
   const std::string record = " --out " + (place.path / "r").string() + " ";
   for (const std::string& command : std::initializer_list<std::string>{

@@ -100,14 +100,14 @@ TEST_CASE("a packed mesh is read like a plain one") {
   CHECK(corners(read_mesh(folder.path("a.obj"))) == cube_corners());
 }
 
-TEST_CASE("OBJ: a part for each run of a material, points and lines counted") {
+TEST_CASE("OBJ: a part for each run of a material, points and lines behind its faces") {
   const Mesh mesh =
       read_text("a.obj",
                 "mtllib missing.mtl\r\no thing\r\nv 0 0 0\r\nv 1e0 0 0 1\r\nv +1 .1e1 0 1 0 0\r\n"
                 "vt 0 0\r\nvn 0 0 1\r\n\tusemtl red\r\nf 1 2 3\r\nusemtl red\r\nf -1//1 -2/1 -3/1/1\r\n"
                 "usemtl blue\r\nf 1 3 2\r\nusemtl red\r\nf 3 1 2\r\np 1\r\nl 1 2 3\r\n");
-  CHECK(mesh.indices == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 0, 0, 2, 1, 2, 0, 1});
-  REQUIRE(mesh.parts.size() == 3);
+  CHECK(mesh.indices == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 0, 0, 2, 1, 2, 0, 1, 0, 1, 1, 2, 0});
+  REQUIRE(mesh.parts.size() == 5);
   CHECK(mesh.parts[0].name == "red");
   CHECK(mesh.parts[0].index_count == 6);
   CHECK(mesh.parts[1].name == "blue");
@@ -116,10 +116,15 @@ TEST_CASE("OBJ: a part for each run of a material, points and lines counted") {
   CHECK(mesh.parts[2].first_index == 9);
   CHECK(mesh.parts[2].index_count == 3);
   CHECK(mesh.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
-  CHECK(mesh.left_out == std::vector<std::string>{"points and lines (2)"});
+  CHECK(mesh.parts[3].name == "red");
+  CHECK(mesh.parts[3].primitive == Primitive::kLineStrip);
+  CHECK(mesh.parts[3].index_count == 4);
+  CHECK(mesh.parts[4].primitive == Primitive::kPoints);
+  CHECK(mesh.parts[4].first_index == 16);
+  CHECK(mesh.left_out.empty());
 }
 
-TEST_CASE("PLY: faces before vertices, other elements and lists are passed over, edges counted") {
+TEST_CASE("PLY: faces before vertices, other elements and lists are passed over, edges are lines") {
   const Mesh mesh =
       read_text("a.ply",
                 "ply\nformat ascii 1.0\nelement face 1\nproperty list uint8 int16 vertex_index\n"
@@ -127,10 +132,13 @@ TEST_CASE("PLY: faces before vertices, other elements and lists are passed over,
                 "element vertex 3\nproperty list uchar double w\nproperty double z\nproperty int x\n"
                 "property float32 y\nend_header\n3 2 1 0 9\n0 1\n1 2\n2 7 7 0.5 1 2\n0 3 1 1\n"
                 "1 3 1e99 -1 -1");
-  CHECK(mesh.indices == std::vector<std::uint32_t>{2, 1, 0});
+  CHECK(mesh.indices == std::vector<std::uint32_t>{2, 1, 0, 0, 1, 1, 2});
+  REQUIRE(mesh.parts.size() == 2);
+  CHECK(mesh.parts[1].primitive == Primitive::kLines);
+  CHECK(mesh.parts[1].first_index == 3);
   CHECK(mesh.positions[0] == glm::dvec3(1, 2, 0.5f));
   CHECK(mesh.positions[2] == glm::dvec3(-1, -1, 1e99));
-  CHECK(mesh.left_out == std::vector<std::string>{"edges (2)"});
+  CHECK(mesh.left_out.empty());
 }
 
 TEST_CASE("glTF: transforms go from the node to the root") {
@@ -177,18 +185,28 @@ TEST_CASE("glTF: the default scene, else the first, else the roots") {
   CHECK(read_json(json).parts.size() == 2);
 }
 
-TEST_CASE("glTF: triangle lists, strips and fans, points and lines counted") {
+TEST_CASE("glTF: triangle lists, strips and fans, points, lines, loops and strips") {
   const auto order = [](int mode) {
     return read_json(with_primitive({{"indices", nullptr}, {"mode", mode}})).indices;
   };
   CHECK(order(5) == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5, 4, 5, 6, 6, 5, 7});
   CHECK(order(6) == std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0, 5, 6, 0, 6, 7});
   CHECK(read_json(with_primitive({{"mode", 4}})).indices == cube_indices());
+  CHECK(order(0) == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
+  CHECK(order(1) == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
+  CHECK(order(2) == std::vector<std::uint32_t>{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 0});
+  CHECK(order(3) == std::vector<std::uint32_t>{0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7});
   nlohmann::json json = cube_gltf();
   for (int mode = 0; mode < 4; ++mode) {
     json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}, {"mode", mode}});
   }
-  CHECK(read_json(json).left_out == std::vector<std::string>{"primitives of points or lines (4)"});
+  const Mesh mesh = read_json(json);
+  CHECK(mesh.left_out.empty());
+  REQUIRE(mesh.parts.size() == 5);
+  CHECK(mesh.parts[1].primitive == Primitive::kPoints);
+  CHECK(mesh.parts[2].primitive == Primitive::kLines);
+  CHECK(mesh.parts[3].primitive == Primitive::kLineStrip);
+  CHECK(mesh.parts[4].primitive == Primitive::kLineStrip);
 }
 
 TEST_CASE("glTF: indices of 8, 16 and 32 bits, interleaved positions, shared and outside buffers") {

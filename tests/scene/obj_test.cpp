@@ -105,7 +105,7 @@ TEST_CASE("OBJ: faces of fewer than three corners are left out and counted") {
 }
 
 TEST_CASE("OBJ: what draws something else is left out and counted") {
-  CHECK(left_out_of_obj("p 1 2\nl 1 2 3\np 4\n") == Strings{"points and lines (3)"});
+  CHECK(left_out_of_obj("l 1\nl\n") == Strings{"lines with fewer than two vertices (2)"});
   CHECK(left_out_of_obj("curv 0 1 1 2 3\ncurv2 1 2\ncdc 1 2 3 4\n") == Strings{"free-form curves (3)"});
   CHECK(left_out_of_obj("surf 0 1 0 1 1 2 3 \\\n4\nbsp 1\nbzp 1\ncdp 1\n") ==
         Strings{"free-form surfaces (4)"});

@@ -228,9 +228,22 @@ TEST_CASE(
                                     "vertices that are not finite (2)"});
 }
 
+TEST_CASE("PLY: edges are lines, and vertices alone points") {
+  const Mesh edges =
+      ply_mesh(ply_text(3, "element edge 2\nproperty uchar red\nproperty int vertex2\nproperty int vertex1\n",
+                        "9 1 0 9 2 1\n"));
+  CHECK(edges.indices == PlyIndices{0, 1, 1, 2});
+  REQUIRE(edges.parts.size() == 1);
+  CHECK(edges.parts[0].primitive == Primitive::kLines);
+  const Mesh cloud = ply_mesh(ply_text(3, "", ""));
+  CHECK(cloud.indices == PlyIndices{0, 1, 2});
+  REQUIRE(cloud.parts.size() == 1);
+  CHECK(cloud.parts[0].primitive == Primitive::kPoints);
+}
+
 TEST_CASE("PLY: other elements and what stands behind the last one are left out and counted") {
   const std::string elements =
-      "element edge 2\nproperty int vertex1\nproperty int vertex2\nelement camera 1\n"
+      "element edge 2\nproperty int vertex1\nproperty float vertex2\nelement camera 1\n"
       "property float view\nproperty list uchar float more\nelement empty 0\nelement face 1\n" +
       kPlyFaces;
   const Mesh mesh = ply_mesh(ply_text(3, elements, "0 1 1 2 0.5 2 7 8 3 0 1 2 \n\r\n 3 0 1\n"));

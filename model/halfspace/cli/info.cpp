@@ -56,11 +56,11 @@ void print_command(std::size_t index, const Command& c) {
     return;
   }
   fmt::print(
-      "{:>6} draw  target {} triangles {} vertices {} func {} viewport {},{} {}x{} scissor {} depth "
+      "{:>6} draw  target {} {} {} vertices {} func {} viewport {},{} {}x{} scissor {} depth "
       "{}..{}{}\n",
-      index, c.target, c.primitive_count(), c.vertex_count,
-      kFuncNames[static_cast<std::size_t>(c.depth_func)], c.viewport.x, c.viewport.y, c.viewport.z,
-      c.viewport.w, scissor, c.depth_range.x, c.depth_range.y, flag_names(c));
+      index, c.target, kPrimitiveName[static_cast<std::size_t>(c.primitive)], c.primitive_count(),
+      c.vertex_count, kFuncNames[static_cast<std::size_t>(c.depth_func)], c.viewport.x, c.viewport.y,
+      c.viewport.z, c.viewport.w, scissor, c.depth_range.x, c.depth_range.y, flag_names(c));
 }
 
 void info(const InfoOptions& options) {

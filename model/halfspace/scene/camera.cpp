@@ -75,9 +75,13 @@ void check_mesh(const Mesh& mesh, std::string_view name) {
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const MeshPart& part = mesh.parts[i];
     const std::uint64_t end = std::uint64_t{part.first_index} + part.index_count;
-    if (part.index_count % 3 != 0 || end > mesh.indices.size()) {
-      throw InputError(fmt::format("{}: mesh part {} is {} indices from {}; legal: whole triangles up to {}",
-                                   name, i, part.index_count, part.first_index, mesh.indices.size()));
+    if (part.index_count % indices_each(part.primitive) != 0 || end > mesh.indices.size()) {
+      throw InputError(fmt::format("{}: mesh part {} is {} indices from {}; legal: whole {} up to {}", name,
+                                   i, part.index_count, part.first_index,
+                                   part.primitive == Primitive::kTriangles ? "triangles"
+                                   : part.primitive == Primitive::kPoints  ? "points"
+                                                                           : "lines",
+                                   mesh.indices.size()));
     }
   }
 }
@@ -248,6 +252,7 @@ Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view n
     draw.source_event = static_cast<std::uint32_t>(frame.commands.size());
     draw.first_index = static_cast<std::uint32_t>(frame.indices.size());
     draw.index_count = part.index_count;
+    draw.primitive = part.primitive;
     draw.first_vertex = static_cast<std::uint32_t>(frame.vertices.size());
     for (const std::uint32_t index : std::span(mesh.indices).subspan(part.first_index, part.index_count)) {
       if (part_of[index] != i) {

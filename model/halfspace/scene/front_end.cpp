@@ -11,7 +11,8 @@ namespace {
 /// 16 integer bits would hold a pixel more. Half of a line's width has room beyond.
 double guard_band(const Command& draw) {
   constexpr double kGuardBand = 32767;
-  return draw.draws_lines() ? kGuardBand - kMaxLineWidth / 2 - 1 : kGuardBand;
+  constexpr int kHalfWidth = kMaxLineWidth / 2;
+  return draw.draws_lines() ? kGuardBand - kHalfWidth - 1 : kGuardBand;
 }
 
 bool finite(const glm::vec4& v) {

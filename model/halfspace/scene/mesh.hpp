@@ -1,4 +1,4 @@
-/// Triangle meshes, from OBJ, PLY and glTF files.
+/// Meshes of triangles, lines and points, from OBJ, PLY and glTF files.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/numerics/line_rule.hpp"
+
 namespace halfspace {
 
 inline constexpr std::uint64_t kMaxMeshVertices = std::uint64_t{1} << 25;
@@ -19,7 +21,8 @@ inline constexpr std::uint64_t kMaxMeshTriangles = std::uint64_t{1} << 25;
 struct MeshPart {
   std::string name;
   std::uint32_t first_index = 0;
-  std::uint32_t index_count = 0;  ///< a multiple of 3, above 0
+  std::uint32_t index_count = 0;  ///< a multiple of the primitive's, above 0
+  Primitive primitive = Primitive::kTriangles;
 };
 
 /// A camera that stands in the mesh's file: it looks along its own -z, with y up.
@@ -33,13 +36,14 @@ struct MeshCamera {
   std::optional<double> far;     ///< none: infinite
 };
 
-/// Positions in the file's own units, y up; three indices a triangle; the parts cover the indices in order.
+/// Positions in the file's own units, y up; three indices a triangle, two a line, one a point; the parts
+/// cover the indices in order.
 struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> indices;  ///< below positions.size()
   std::vector<MeshPart> parts;
   std::vector<MeshCamera> cameras;
-  std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "points and lines (3)"
+  std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "free-form curves (3)"
 };
 
 /// All three coordinates.
@@ -50,7 +54,7 @@ struct Mesh {
 /// all vertex attributes but the position are passed over; whatever else of the file is not in the mesh is
 /// listed in `left_out`. No material or image file is opened; buffers of a glTF file are only from its own
 /// folder or below. Throws InputError when the file cannot be read, is damaged or contradicts itself, has no
-/// triangle, or has more than kMaxMeshVertices positions or kMaxMeshTriangles triangles.
+/// triangle, line or point, or has more than kMaxMeshVertices positions or kMaxMeshTriangles of these.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace halfspace

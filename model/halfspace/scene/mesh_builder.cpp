@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,8 @@ void MeshBuilder::check_room(std::uint64_t more_vertices, std::uint64_t more_tri
     }
   };
   check("vertices", mesh_.positions.size(), more_vertices, kMaxMeshVertices);
-  check("triangles", mesh_.indices.size() / 3, more_triangles, kMaxMeshTriangles);
+  const std::uint64_t indices = mesh_.indices.size() + lines_.size() + strips_.size() + points_.size();
+  check("triangles", indices / 3, more_triangles, kMaxMeshTriangles);
 }
 
 void MeshBuilder::reserve_vertices(std::uint64_t count) {
@@ -52,12 +54,7 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
     leave_out("faces with fewer than three corners");
     return;
   }
-  if (not_finite_ > 0 && !std::ranges::all_of(corners, [&](std::uint32_t corner) {
-        return is_finite(mesh_.positions[corner]);
-      })) {
-    leave_out("faces with a vertex that is not finite");
-    return;
-  }
+  if (!check_finite(corners, "faces with a vertex that is not finite")) return;
   check_room(0, corners.size() - 2);
   if (corners.size() == 3) {
     for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
@@ -70,11 +67,59 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
   }
 }
 
-void MeshBuilder::end_part(std::string part_name) {
+bool MeshBuilder::check_finite(std::span<const std::uint32_t> vertices, std::string_view what) {
+  const bool finite = not_finite_ == 0 || std::ranges::all_of(vertices, [&](std::uint32_t vertex) {
+                        return is_finite(mesh_.positions[vertex]);
+                      });
+  if (!finite) leave_out(what);
+  return finite;
+}
+
+void MeshBuilder::add_line_strip(std::span<const std::uint32_t> vertices, bool closed) {
+  if (vertices.size() < 2) {
+    leave_out("lines with fewer than two vertices");
+    return;
+  }
+  check_room(0, vertices.size());
+  const std::size_t count = vertices.size() - (closed ? 0 : 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<std::uint32_t, 2> line{vertices[i], vertices[(i + 1) % vertices.size()]};
+    if (check_finite(line, "lines with a vertex that is not finite")) {
+      strips_.insert(strips_.end(), line.begin(), line.end());
+    }
+  }
+}
+
+void MeshBuilder::add_line(std::uint32_t start, std::uint32_t end) {
+  check_room(0, 1);
+  const std::array<std::uint32_t, 2> line{start, end};
+  if (check_finite(line, "lines with a vertex that is not finite")) {
+    lines_.insert(lines_.end(), line.begin(), line.end());
+  }
+}
+
+void MeshBuilder::add_point(std::uint32_t vertex) {
+  check_room(0, 1);
+  if (check_finite({&vertex, 1}, "points that are not finite")) points_.push_back(vertex);
+}
+
+void MeshBuilder::end_part(const std::string& part_name, Primitive primitive,
+                           std::vector<std::uint32_t>& indices) {
+  if (indices.empty()) return;
+  const auto begin = static_cast<std::uint32_t>(mesh_.indices.size());
+  mesh_.indices.insert(mesh_.indices.end(), indices.begin(), indices.end());
+  mesh_.parts.push_back({part_name, begin, static_cast<std::uint32_t>(indices.size()), primitive});
+  indices.clear();
+}
+
+void MeshBuilder::end_part(const std::string& part_name) {
   const auto end = static_cast<std::uint32_t>(mesh_.indices.size());
   const std::uint32_t begin =
       mesh_.parts.empty() ? 0 : mesh_.parts.back().first_index + mesh_.parts.back().index_count;
-  if (begin != end) mesh_.parts.push_back({std::move(part_name), begin, end - begin});
+  if (begin != end) mesh_.parts.push_back({part_name, begin, end - begin});
+  end_part(part_name, Primitive::kLines, lines_);
+  end_part(part_name, Primitive::kLineStrip, strips_);
+  end_part(part_name, Primitive::kPoints, points_);
 }
 
 void MeshBuilder::leave_out(std::string_view what, std::uint64_t count) {
@@ -94,8 +139,9 @@ Mesh MeshBuilder::finish() && {
     std::string also;
     for (const std::string& text : mesh_.left_out)
       also += fmt::format("{} {}", also.empty() ? ", without" : ",", text);
-    throw InputError(fmt::format("{}: mesh has {} vertices and 0 triangles{}; legal: 1 triangle or more",
-                                 name_, mesh_.positions.size(), also));
+    throw InputError(
+        fmt::format("{}: mesh has {} vertices and 0 triangles{}; legal: 1 triangle, line or point or more",
+                    name_, mesh_.positions.size(), also));
   }
   return std::move(mesh_);
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "halfspace/scene/mesh.hpp"
 
@@ -33,20 +34,34 @@ class MeshBuilder {
   /// corners is left out and counted.
   void add_face(std::span<const std::uint32_t> corners);
 
-  /// Ends a draw: all faces since the last part, if there are any.
-  void end_part(std::string part_name);
+  /// Lines from each vertex to the next, each below vertex_count(); `closed`: and from the last to the first.
+  /// Fewer than two vertices are left out and counted. Lines of a strip share their stipple.
+  void add_line_strip(std::span<const std::uint32_t> vertices, bool closed = false);
+  void add_line(std::uint32_t start, std::uint32_t end);
+  void add_point(std::uint32_t vertex);
+
+  /// Ends a draw: all faces since the last part, if there are any; lines and points are draws of their own
+  /// behind it.
+  void end_part(const std::string& part_name);
 
   /// So many of `what`, a plural for people, are not in the mesh.
   void leave_out(std::string_view what, std::uint64_t count = 1);
 
   void add_camera(MeshCamera camera) { mesh_.cameras.push_back(std::move(camera)); }
 
-  /// Throws InputError when there is no triangle.
+  /// Throws InputError when there is no triangle, line or point.
   [[nodiscard]] Mesh finish() &&;
 
  private:
+  /// Whether all are; where not, `what` is left out.
+  bool check_finite(std::span<const std::uint32_t> vertices, std::string_view what);
+  void end_part(const std::string& part_name, Primitive primitive, std::vector<std::uint32_t>& indices);
+
   std::string_view name_;
   Mesh mesh_;
+  std::vector<std::uint32_t> lines_;   ///< since the last part: two indices each
+  std::vector<std::uint32_t> strips_;  ///< the same, of strips
+  std::vector<std::uint32_t> points_;
   std::uint64_t not_finite_ = 0;  ///< vertices
   std::map<std::string, std::uint64_t, std::less<>> left_out_;
 };

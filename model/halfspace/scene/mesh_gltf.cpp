@@ -119,17 +119,36 @@ class SceneReader {
     const auto times = [&](std::uint64_t n) {  // without overflow
       return n != 0 && copies > kMaxMeshVertices + kMaxMeshTriangles ? copies : n * copies;
     };
-    source_.mesh.check_room(times(primitive.vertices.size()), times(primitive.corners.size() / 3));
+    const bool is_triangles = primitive.kind == halfspace::Primitive::kTriangles;
+    source_.mesh.check_room(times(primitive.vertices.size()),
+                            times(is_triangles ? primitive.corners.size() / 3 : primitive.corners.size()));
   }
 
   template <typename Place>
   void add_copy(const Primitive& primitive, const Place& place) {
     const std::uint32_t first = source_.mesh.vertex_count();
     for (const std::uint32_t vertex : primitive.vertices) source_.mesh.add_vertex(place(vertex));
+    if (primitive.kind != halfspace::Primitive::kTriangles) return add_others(primitive, first);
     for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
       const std::uint32_t face[3] = {first + primitive.corners[i], first + primitive.corners[i + 1],
                                      first + primitive.corners[i + 2]};
       source_.mesh.add_face(face);
+    }
+  }
+
+  void add_others(const Primitive& primitive, std::uint32_t first) {
+    std::vector<std::uint32_t> corners = primitive.corners;
+    for (std::uint32_t& corner : corners) corner += first;
+    if (primitive.kind == halfspace::Primitive::kLineStrip) {
+      return source_.mesh.add_line_strip(corners, primitive.closed);
+    }
+    const std::size_t each = indices_each(primitive.kind);
+    for (std::size_t i = 0; i < corners.size(); i += each) {
+      if (each == 2) {
+        source_.mesh.add_line(corners[i], corners[i + 1]);
+      } else {
+        source_.mesh.add_point(corners[i]);
+      }
     }
   }
 

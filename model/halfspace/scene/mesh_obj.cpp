@@ -27,7 +27,8 @@ enum class Statement {
   kFace,
   kMaterial,
   kPassedOver,  // says nothing about where triangles are
-  kPointOrLine,
+  kPoint,
+  kLine,
   kCurve,
   kSurface,
   kOtherFile,  // could add vertices, which later faces would count from
@@ -48,8 +49,8 @@ constexpr std::array<Keyword, 45> kKeywords{{{"v", Statement::kVertex},
                                              {"s", Statement::kPassedOver},
                                              {"o", Statement::kPassedOver},
                                              {"mtllib", Statement::kPassedOver},
-                                             {"p", Statement::kPointOrLine},
-                                             {"l", Statement::kPointOrLine},
+                                             {"p", Statement::kPoint},
+                                             {"l", Statement::kLine},
                                              {"curv", Statement::kCurve},
                                              {"curv2", Statement::kCurve},
                                              {"surf", Statement::kSurface},
@@ -107,7 +108,6 @@ class ObjParser {
       to_next_line();
     }
     builder_.end_part(material_);
-    leave_out("points and lines", Statement::kPointOrLine);
     leave_out("free-form curves", Statement::kCurve);
     leave_out("free-form surfaces", Statement::kSurface);
     leave_out("unknown statements", Statement::kUnknown);
@@ -203,7 +203,10 @@ class ObjParser {
         return parse_material();
       case Statement::kPassedOver:
         return;
-      case Statement::kPointOrLine:
+      case Statement::kPoint:
+        return parse_points();
+      case Statement::kLine:
+        return parse_line();
       case Statement::kCurve:
       case Statement::kSurface:
       case Statement::kUnknown:
@@ -232,6 +235,20 @@ class ObjParser {
     const std::int64_t vertices = builder_.vertex_count();
     while (to_word()) corners_.push_back(parse_corner(vertices));
     builder_.add_face(corners_);
+  }
+
+  void parse_points() {
+    corners_.clear();
+    const std::int64_t vertices = builder_.vertex_count();
+    while (to_word()) corners_.push_back(parse_corner(vertices));
+    for (const std::uint32_t corner : corners_) builder_.add_point(corner);
+  }
+
+  void parse_line() {
+    corners_.clear();
+    const std::int64_t vertices = builder_.vertex_count();
+    while (to_word()) corners_.push_back(parse_corner(vertices));
+    builder_.add_line_strip(corners_);
   }
 
   /// v, v/t, v//n or v/t/n, of which the first is a vertex; those below 0 count back from the last one.

@@ -62,6 +62,7 @@ class BodyParser {
     if (const std::uint64_t left = numbers_.left(); left > 0) {
       builder_.leave_out("bytes behind the last element", left);
     }
+    add_cloud();
     builder_.end_part("face");
     return std::move(builder_).finish();
   }
@@ -75,11 +76,11 @@ class BodyParser {
     if (element.name == "vertex") {
       parse_vertices(element);
       parse_waiting();
-    } else if (element.name != "face" && element.name != "tristrips") {
+    } else if (!is_drawn(element)) {
       pass_over(element);
       leave_out(element);
     } else if (builder_.vertex_count() > 0) {
-      parse_faces(element);
+      parse_drawn(element);
     } else {
       waiting_.emplace_back(&element, numbers_);
       pass_over(element);
@@ -152,9 +153,55 @@ class BodyParser {
     const Numbers here = numbers_;
     for (const auto& [element, begin] : std::exchange(waiting_, {})) {
       numbers_ = begin;
-      parse_faces(*element);
+      parse_drawn(*element);
     }
     numbers_ = here;
+  }
+
+  /// Edges have two vertices, which are integers.
+  [[nodiscard]] static bool has_ends(const Element& edge) {
+    return std::ranges::all_of(std::array{"vertex1", "vertex2"}, [&](const char* end) {
+      const std::size_t at = edge.find(end, false);
+      return at != edge.properties.size() && !is_float(edge.properties[at].type);
+    });
+  }
+
+  [[nodiscard]] static bool is_drawn(const Element& element) {
+    return element.name == "face" || element.name == "tristrips" ||
+           (element.name == "edge" && has_ends(element));
+  }
+
+  void parse_drawn(const Element& element) {
+    if (element.name == "edge") {
+      parse_edges(element);
+    } else {
+      parse_faces(element);
+    }
+  }
+
+  void parse_edges(const Element& element) {
+    const std::array<std::size_t, 2> at{element.find("vertex1", false), element.find("vertex2", false)};
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      std::array<std::uint32_t, 2> ends{};
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
+        const Property& property = element.properties[p];
+        if (p == at[0] || p == at[1]) {
+          ends[p == at[0] ? 0 : 1] =
+              to_vertex(numbers_.next_integer(property.type, property.name), "edge", i);
+        } else {
+          pass_over(property);
+        }
+      }
+      builder_.add_line(ends[0], ends[1]);
+    }
+  }
+
+  /// A file of vertices alone is a cloud of points.
+  void add_cloud() {
+    const auto is_cloud = std::ranges::none_of(header_.elements, [](const Element& element) {
+      return element.name == "face" || element.name == "tristrips" || element.name == "edge";
+    });
+    for (std::uint32_t i = 0; is_cloud && i < builder_.vertex_count(); ++i) builder_.add_point(i);
   }
 
   /// Of an element "face" or "tristrips".

@@ -8,7 +8,43 @@
 namespace halfspace::gltf {
 namespace {
 
-enum class Topology : std::uint8_t { kTriangles = 4, kStrip = 5, kFan = 6 };  // glTF 2.0, 5.24.4
+/// glTF 2.0, 5.24.4.
+enum class Topology : std::uint8_t {
+  kPoints = 0,
+  kLines = 1,
+  kLineLoop = 2,
+  kLineStrip = 3,
+  kTriangles = 4,
+  kStrip = 5,
+  kFan = 6
+};
+
+halfspace::Primitive kind_of(Topology topology) {
+  switch (topology) {
+    case Topology::kPoints:
+      return halfspace::Primitive::kPoints;
+    case Topology::kLines:
+      return halfspace::Primitive::kLines;
+    case Topology::kLineLoop:
+    case Topology::kLineStrip:
+      return halfspace::Primitive::kLineStrip;
+    case Topology::kTriangles:
+    case Topology::kStrip:
+    case Topology::kFan:
+      break;
+  }
+  return halfspace::Primitive::kTriangles;
+}
+
+/// The corners of points and lines as they are; those of a list that make no line are left out.
+std::vector<std::uint32_t> list_others(std::vector<std::uint32_t> order, Topology topology,
+                                       MeshBuilder& mesh) {
+  if (topology == Topology::kLines && order.size() % 2 != 0) {
+    mesh.leave_out("corners that make no line");
+    order.pop_back();
+  }
+  return order;
+}
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
@@ -44,20 +80,25 @@ class PrimitiveReader {
     if (mode > static_cast<std::uint64_t>(Topology::kFan)) {
       source_.document.fail("primitive mode is {}; legal: 0 to 6", mode);
     }
-    if (mode < static_cast<std::uint64_t>(Topology::kTriangles)) {
-      source_.mesh.leave_out("primitives of points or lines");
-      return std::nullopt;
-    }
     if (!attributes_.has("POSITION")) {
       source_.mesh.leave_out("primitives without positions");
       return std::nullopt;
     }
     open_draco();
     Accessor positions = attribute("POSITION", kPositionUse);
-    std::vector<std::uint32_t> corners =
-        draco_ != nullptr ? draco_->corners()
-                          : list_triangles(read_order(positions), static_cast<Topology>(mode), source_.mesh);
+    const auto topology = static_cast<Topology>(mode);
+    const bool is_triangles = kind_of(topology) == halfspace::Primitive::kTriangles;
+    if (!is_triangles && draco_ != nullptr) {  // the extension has triangles alone
+      source_.mesh.leave_out("primitives of points or lines that Draco packs");
+      return std::nullopt;
+    }
+    std::vector<std::uint32_t> corners = draco_ != nullptr ? draco_->corners()
+                                         : is_triangles
+                                             ? list_triangles(read_order(positions), topology, source_.mesh)
+                                             : list_others(read_order(positions), topology, source_.mesh);
     Primitive out{{}, std::move(corners), positions, read_influences(positions.count()), {}};
+    out.kind = kind_of(topology);
+    out.closed = topology == Topology::kLineLoop;
     out.unpacked = std::move(unpacked_);
     renumber(out);
     return out;

@@ -32,14 +32,16 @@ struct Source {
 };
 
 struct Primitive {
-  std::vector<std::uint32_t> vertices;  ///< those that triangles use, ascending
-  std::vector<std::uint32_t> corners;   ///< three a triangle, each an index of `vertices`
+  std::vector<std::uint32_t> vertices;  ///< those that are used, ascending
+  std::vector<std::uint32_t> corners;   ///< three a triangle, two a line, one a point: indices of `vertices`
   Accessor positions;
   std::vector<Influences> influences;            ///< none when it has no joints
   std::vector<std::vector<std::byte>> unpacked;  ///< what accessors refer to, if not to buffers
+  halfspace::Primitive kind = halfspace::Primitive::kTriangles;  ///< of a strip or loop of lines, the strip
+  bool closed = false;                                           ///< a loop: the corners are those of a strip
 };
 
-/// Nothing when it has no triangles or no positions, which is said of the mesh. `copies`: how many times it
+/// Nothing when it has no positions, which is said of the mesh. `copies`: how many times it
 /// is drawn.
 [[nodiscard]] std::optional<Primitive> read_primitive(Source& source, const Object& primitive,
                                                       std::size_t copies);
