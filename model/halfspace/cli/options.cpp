@@ -203,12 +203,12 @@ Camera InputOptions::camera() const {
 
 Frame InputOptions::frame() const { return load_input(paths.front(), camera()); }
 
-std::vector<Frame> InputOptions::frames() const {
+std::vector<Frame> InputOptions::frames(MeshContent content) const {
   const Camera seen_by = camera();
   std::vector<Frame> frames;
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
-    frames.push_back(load_input(path, seen_by));
+    frames.push_back(load_input(path, seen_by, content));
   }
   return frames;
 }

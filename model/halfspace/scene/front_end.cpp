@@ -71,28 +71,53 @@ FrontEnd::Window FrontEnd::to_window(const Clip& v) const {
           draw_.viewport.y + (v.y / v.w + 1) * draw_.viewport.w / 2, v.z / v.w * z_scale_ + z_bias_};
 }
 
+const glm::vec4& FrontEnd::vertex(std::uint32_t index, std::uint32_t corner) const {
+  const std::size_t at = std::size_t{draw_.first_index} + std::size_t{index} * 3 + corner;
+  return frame_.vertices[std::size_t{draw_.first_vertex} + frame_.indices[at]];
+}
+
+template <class Vertex, class Position>
+bool FrontEnd::clip_to_planes(Polygon<Vertex>& polygon, const Position& position) const {
+  bool cut = false;
+  for (std::size_t p = 0; p < plane_count_ && polygon.size != 0; ++p) {
+    const auto distance = [&](const Vertex& v) { return glm::dot(planes_[p], position(v)); };
+    if (distance(polygon.v[0]) < 0 || std::any_of(polygon.v.begin() + 1, polygon.v.begin() + polygon.size,
+                                                  [&](const Vertex& v) { return distance(v) < 0; })) {
+      polygon = clip(polygon, distance);
+      cut = true;
+    }
+  }
+  return cut;
+}
+
+Polygon<FrontEnd::Corner> FrontEnd::corners(std::uint32_t index) const {
+  Polygon<Corner> polygon;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const glm::vec4& v = vertex(index, i);
+    if (!finite(v)) {
+      return {};
+    }
+    Corner corner{.clip = v, .weights = {}};
+    corner.weights[static_cast<int>(i)] = 1;
+    polygon.push(corner);
+  }
+  clip_to_planes(polygon, [](const Corner& corner) -> const Clip& { return corner.clip; });
+  return polygon;
+}
+
 void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
                        FrontEndCounters& counters) const {
   ++counters.triangles;
   Polygon<Clip> polygon;
   for (std::uint32_t i = 0; i < 3; ++i) {
-    const std::size_t at = std::size_t{draw_.first_index} + std::size_t{index} * 3 + i;
-    const glm::vec4& v = frame_.vertices[std::size_t{draw_.first_vertex} + frame_.indices[at]];
+    const glm::vec4& v = vertex(index, i);
     if (!finite(v)) {
       ++counters.non_finite;
       return;
     }
     polygon.push(v);
   }
-  bool cut = false;
-  for (std::size_t p = 0; p < plane_count_ && polygon.size != 0; ++p) {
-    const auto distance = [&](const Clip& v) { return glm::dot(planes_[p], v); };
-    if (distance(polygon.v[0]) < 0 || std::any_of(polygon.v.begin() + 1, polygon.v.begin() + polygon.size,
-                                                  [&](const Clip& v) { return distance(v) < 0; })) {
-      polygon = clip(polygon, distance);
-      cut = true;
-    }
-  }
+  const bool cut = clip_to_planes(polygon, [](const Clip& v) -> const Clip& { return v; });
   if (polygon.size < 3) {
     ++counters.clipped_away;
     return;

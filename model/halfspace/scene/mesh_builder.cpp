@@ -47,27 +47,49 @@ void MeshBuilder::add_vertex(glm::dvec3 position) {
   mesh_.positions.push_back(position);
 }
 
-void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
+bool MeshBuilder::check_face(std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) {
     leave_out("faces with fewer than three corners");
-    return;
+    return false;
   }
   if (not_finite_ > 0 && !std::ranges::all_of(corners, [&](std::uint32_t corner) {
         return is_finite(mesh_.positions[corner]);
       })) {
     leave_out("faces with a vertex that is not finite");
-    return;
+    return false;
   }
   check_room(0, corners.size() - 2);
+  return true;
+}
+
+void MeshBuilder::refuse_concave(std::size_t corners) const {
+  throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
+                               corners, kMaxConcaveCorners));
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
+  if (!check_face(corners)) return;
   if (corners.size() == 3) {
     for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
     return;
   }
   reserve_triangles(corners.size() - 2);
-  if (!triangulate(corners, mesh_.positions, mesh_.indices)) {
-    throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
-                                 corners.size(), kMaxConcaveCorners));
+  if (!triangulate(corners, mesh_.positions, mesh_.indices)) refuse_concave(corners.size());
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& order) {
+  order.clear();
+  if (!check_face(corners)) return;
+  // By its places, which triangulate() sees as it sees the vertices: only positions count.
+  std::vector<glm::dvec3> positions;
+  std::vector<std::uint32_t> places;
+  for (std::uint32_t place = 0; place < corners.size(); ++place) {
+    positions.push_back(mesh_.positions[corners[place]]);
+    places.push_back(place);
   }
+  if (!triangulate(places, positions, order)) refuse_concave(corners.size());
+  reserve_triangles(corners.size() - 2);
+  for (const std::uint32_t place : order) mesh_.indices.push_back(corners[place]);
 }
 
 void MeshBuilder::end_part(std::string part_name) {

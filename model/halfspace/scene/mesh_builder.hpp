@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "halfspace/scene/mesh.hpp"
 
@@ -32,9 +33,13 @@ class MeshBuilder {
   /// A face of these vertices, each below vertex_count(), is cut into triangles. One of fewer than three
   /// corners is left out and counted.
   void add_face(std::span<const std::uint32_t> corners);
+  /// The same. `order` becomes the corners of its triangles, three each, as places in `corners`.
+  void add_face(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& order);
 
   /// Ends a draw: all faces since the last part, if there are any.
   void end_part(std::string part_name);
+
+  [[nodiscard]] std::size_t part_count() const { return mesh_.parts.size(); }
 
   /// So many of `what`, a plural for people, are not in the mesh.
   void leave_out(std::string_view what, std::uint64_t count = 1);
@@ -45,6 +50,10 @@ class MeshBuilder {
   [[nodiscard]] Mesh finish() &&;
 
  private:
+  /// Whether a face becomes triangles; else it is counted.
+  bool check_face(std::span<const std::uint32_t> corners);
+  [[noreturn]] void refuse_concave(std::size_t corners) const;
+
   std::string_view name_;
   Mesh mesh_;
   std::uint64_t not_finite_ = 0;  ///< vertices
