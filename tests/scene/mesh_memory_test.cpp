@@ -113,6 +113,18 @@ TEST_CASE("PLY: memory with attributes is within the same multiple") {
   CHECK(memory(file, parse_all) < kMostMemory);
 }
 
+TEST_CASE("OBJ: memory with attributes is within the same multiple") {
+  const auto parse_all = [](std::span<const std::byte> bytes, std::string_view name) {
+    return parse_obj(bytes, name, "/nonexistent", MeshContent::kAttributes);
+  };
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt\n";
+  CHECK(memory(repeated(points, "f 1/1 2 3\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3 1\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points + "f 1 2 3\nf", " 1"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points + "f 1 2 3\n", "vn\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3\nusemtl\nf 1 2 3\nusemtl a\n"), parse_all) < kMostMemory);
+}
+
 TEST_CASE("glTF: memory is within its multiple of the file's size") {
   const auto of_text = [](const std::string& file) {
     return memory(file, [](std::span<const std::byte> bytes, std::string_view name) {

@@ -83,6 +83,9 @@ void MeshBuilder::add_face(std::span<const std::uint32_t> corners, std::vector<s
   // By its places, which triangulate() sees as it sees the vertices: only positions count.
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> places;
+  positions.reserve(corners.size());
+  places.reserve(corners.size());
+  order.reserve(3 * (corners.size() - 2));
   for (std::uint32_t place = 0; place < corners.size(); ++place) {
     positions.push_back(mesh_.positions[corners[place]]);
     places.push_back(place);
