@@ -95,6 +95,11 @@ study-orientation study-depth-resolution: build/release/build.ninja ## Run a tes
 	cmake --build --preset release --target halfspace_$(subst -,_,$@)
 	tools/write_robustness.py $(@:study-%=%)
 
+.PHONY: study-interpolation
+study-interpolation: release-program ## Draw a floor by each interpolation, and measure the interpolator's error by its precision; write docs/guides/shading.md's pictures and table.
+	cmake --build --preset release --target halfspace_study_interpolation
+	tools/write_shading.py
+
 .PHONY: stress-reports
 stress-reports: release-program ## Draw the scenes of public reports with rasterizers that fail; write docs/guides/stress.md's table.
 	tools/write_robustness.py stress-reports

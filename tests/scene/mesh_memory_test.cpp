@@ -89,6 +89,42 @@ TEST_CASE("PLY: memory is within its multiple of the file's size") {
                parse_ply) < kMostMemory);
 }
 
+TEST_CASE("PLY: memory with attributes is within the same multiple") {
+  const auto parse_all = [](std::span<const std::byte> bytes, std::string_view name) {
+    return parse_ply(bytes, name, MeshContent::kAttributes);
+  };
+  std::string properties;
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "u", "v"}) {
+    properties += std::string("property uchar ") + name + "\n";
+  }
+  const std::string many = std::to_string(kFileBytes / 11 - 100);
+  CHECK(memory(repeated(ply_head("binary_little_endian",
+                                 "element vertex " + many + "\n" + properties +
+                                     "element face 1\nproperty list uchar uchar vertex_index\n"),
+                        {"\3\1\2\3\1\2\3\1\2\3\1", 11}),
+               parse_all) < kMostMemory);
+  // One vertex has a colour, and a strip of bytes many triangles.
+  std::string file =
+      ply_head("binary_little_endian", "element vertex 3\n" + properties +
+                                           "element tristrips 1\nproperty list uint uchar vertex_indices\n");
+  file += std::string(33, '\1');
+  append(file, static_cast<std::uint32_t>(kFileBytes));
+  for (std::size_t i = 0; i < kFileBytes; ++i) file += static_cast<char>(i % 3);
+  CHECK(memory(file, parse_all) < kMostMemory);
+}
+
+TEST_CASE("OBJ: memory with attributes is within the same multiple") {
+  const auto parse_all = [](std::span<const std::byte> bytes, std::string_view name) {
+    return parse_obj(bytes, name, "/nonexistent", MeshContent::kAttributes);
+  };
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt\n";
+  CHECK(memory(repeated(points, "f 1/1 2 3\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3 1\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points + "f 1 2 3\nf", " 1"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points + "f 1 2 3\n", "vn\n"), parse_all) < kMostMemory);
+  CHECK(memory(repeated(points, "f 1 2 3\nusemtl\nf 1 2 3\nusemtl a\n"), parse_all) < kMostMemory);
+}
+
 TEST_CASE("glTF: memory is within its multiple of the file's size") {
   const auto of_text = [](const std::string& file) {
     return memory(file, [](std::span<const std::byte> bytes, std::string_view name) {

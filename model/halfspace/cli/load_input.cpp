@@ -18,10 +18,14 @@ void say_left_out(const std::filesystem::path& path, const std::vector<std::stri
   }
 }
 
-Frame load_input(const std::filesystem::path& path, const Camera& camera) {
-  Frame frame = load(path, camera);
+Frame load_input(const std::filesystem::path& path, const Camera& camera, MeshContent content) {
+  Frame frame = load(path, camera, content);
   say_left_out(path, frame.left_out);
   return frame;
+}
+
+Frame load_input(const std::filesystem::path& path, const Camera& camera) {
+  return load_input(path, camera, MeshContent::kGeometry);
 }
 
 }  // namespace halfspace

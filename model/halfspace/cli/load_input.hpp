@@ -7,6 +7,7 @@
 
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/scene/mesh.hpp"
 
 namespace halfspace {
 
@@ -15,5 +16,6 @@ void say_left_out(const std::filesystem::path& path, const std::vector<std::stri
 
 /// load(), which says what is left out.
 [[nodiscard]] Frame load_input(const std::filesystem::path& path, const Camera& camera = {});
+[[nodiscard]] Frame load_input(const std::filesystem::path& path, const Camera& camera, MeshContent content);
 
 }  // namespace halfspace

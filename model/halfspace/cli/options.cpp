@@ -208,12 +208,12 @@ Frame InputOptions::frame() const {
   return frame;
 }
 
-std::vector<Frame> InputOptions::frames() const {
+std::vector<Frame> InputOptions::frames(MeshContent content) const {
   const Camera seen_by = camera();
   std::vector<Frame> frames;
   frames.reserve(paths.size());
   for (const std::string& path : paths) {
-    frames.push_back(load_input(path, seen_by));
+    frames.push_back(load_input(path, seen_by, content));
     draws.apply(frames.back());
   }
   return frames;

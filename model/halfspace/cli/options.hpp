@@ -63,8 +63,9 @@ struct InputOptions {
   void add_to(CLI::App& command);
   /// Takes several, which follow each other.
   void add_several_to(CLI::App& command);
-  [[nodiscard]] Frame frame() const;                ///< loaded and validated; throws InputError
-  [[nodiscard]] std::vector<Frame> frames() const;  ///< all of them; throws InputError
+  [[nodiscard]] Frame frame() const;  ///< loaded and validated; throws InputError
+  /// All of them; throws InputError. `content`: of meshes.
+  [[nodiscard]] std::vector<Frame> frames(MeshContent content = MeshContent::kGeometry) const;
 
  private:
   CLI::Option* add_input_to(CLI::App& command, const std::string& more);

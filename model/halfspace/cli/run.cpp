@@ -1,6 +1,8 @@
 /// halfspace run: the main job.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +24,7 @@
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run.hpp"
+#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/whatif/sequence.hpp"
 
 namespace halfspace {
@@ -45,7 +48,48 @@ struct RunCommand {
   bool quads = false;
   bool tiles = false;
   bool no_pictures = false;
+  std::string interpolation;
+
+  [[nodiscard]] bool wants_pictures() const { return !out.empty() && !no_pictures; }
+  /// Only pictures show attributes.
+  [[nodiscard]] MeshContent content() const {
+    return wants_pictures() ? MeshContent::kAttributes : MeshContent::kGeometry;
+  }
 };
+
+struct InterpolationName {
+  const char* name;
+  Interpolation value;
+};
+constexpr std::array<InterpolationName, 3> kInterpolations{{{"perspective", Interpolation::kPerspective},
+                                                            {"affine", Interpolation::kAffine},
+                                                            {"flat", Interpolation::kFlat}}};
+
+/// Throws OptionError where it is given and no picture shows it.
+Interpolation interpolation_of(const RunCommand& command, const Frame& frame) {
+  if (command.interpolation.empty()) {
+    return Interpolation::kPerspective;
+  }
+  const auto refuse = [&](const char* why) {
+    throw OptionError(
+        fmt::format("--interpolation is '{}', {}; legal: for the picture of one mesh with "
+                    "colours, texture coordinates, normals or materials, without a what-if",
+                    command.interpolation, why));
+  };
+  if (!command.wants_pictures()) {
+    refuse(command.out.empty() ? "given without --out" : "given with --no-pictures");
+  }
+  if (command.what_if.what_if().any()) {
+    refuse("given with a what-if");
+  }
+  if (command.input.paths.size() > 1) {
+    refuse("given with several inputs");
+  }
+  if (frame.attributes == nullptr) {
+    refuse("given with an input without attributes");
+  }
+  return std::ranges::find(kInterpolations, command.interpolation, &InterpolationName::name)->value;
+}
 
 /// Refuses options that the fidelity does not support.
 void check_fidelity(Fidelity fidelity, const RunCommand& options) {
@@ -79,7 +123,7 @@ void check_reference(const RunCommand& options) {
     if (given) {
       throw OptionError(
           fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
-                      "--no-pictures, and the camera of a mesh",
+                      "--no-pictures, --interpolation, and the camera of a mesh",
                       options.reference, name));
     }
   }
@@ -126,11 +170,14 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
 ExitStatus run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
+    Frame frame = whatif::join(command.input.frames(command.content()));
+    const Interpolation interpolation = interpolation_of(command, frame);
     run_reference({.method = command.reference,
                    .out = command.out,
                    .quads = command.quads,
-                   .pictures = !command.no_pictures},
-                  whatif::join(command.input.frames()), command.machine.config());
+                   .pictures = !command.no_pictures,
+                   .interpolation = interpolation},
+                  std::move(frame), command.machine.config());
     return ExitStatus::kDone;
   }
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -143,9 +190,10 @@ ExitStatus run_command(const RunCommand& command) {
   const TimelineChoice choice = command.timeline.choice();
   const Config config = command.machine.config();
   const whatif::WhatIf what_if = command.what_if.what_if();
-  std::vector<Frame> frames = command.input.frames();
+  std::vector<Frame> frames = command.input.frames(command.content());
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
+  const Interpolation interpolation = interpolation_of(command, frame);
   std::optional<OutputFolder> folder;
   Recorder::Options record;
   if (!command.out.empty()) {
@@ -162,7 +210,7 @@ ExitStatus run_command(const RunCommand& command) {
     options.cycle_observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
   }
   RunObserver observer(frame, config, record, command.tile_jobs);
-  const bool pictures = folder.has_value() && !command.no_pictures;
+  const bool pictures = command.wants_pictures();
   options.watch = {.keep_visible = pictures,
                    .count_pixels = folder.has_value(),
                    .keep_sums = pictures,
@@ -182,7 +230,7 @@ ExitStatus run_command(const RunCommand& command) {
     agree = !without.rtl || without.rtl->different == 0;
   }
   if (folder) {
-    write_result_files(*folder, frame, config, fidelity, options.stalls, result, report);
+    write_result_files(*folder, frame, config, fidelity, options.stalls, result, report, interpolation);
     folder->commit();
   }
   agree = print_result(frame, result) && agree;
@@ -220,6 +268,10 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
       ->needs(out);
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
+  command
+      ->add_option("--interpolation", options->interpolation,
+                   "how the shaded picture of a mesh interpolates its attributes (default: perspective)")
+      ->check(one_of_table(kInterpolations, &InterpolationName::name));
   command
       ->add_option(
           "--quad-merging", options->quad_merging,

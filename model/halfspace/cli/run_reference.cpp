@@ -241,7 +241,8 @@ void run_reference(const ReferenceRequest& request, Frame frame, const Config& c
         write_colors(folder->file(fmt::format("colors{}.png", label)), surface);
       }
     }
-    write_result_files(*folder, frame, config, Fidelity::kFunctional, {}, builder.result, std::nullopt);
+    write_result_files(*folder, frame, config, Fidelity::kFunctional, {}, builder.result, std::nullopt,
+                       request.interpolation);
     folder->commit();
   }
   print_table(frame, builder.result);

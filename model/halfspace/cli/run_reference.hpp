@@ -6,6 +6,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/shade/attribute_planes.hpp"
 
 namespace halfspace {
 
@@ -14,6 +15,7 @@ struct ReferenceRequest {
   std::string out;     ///< folder for results; empty: none
   bool quads = false;  ///< write quads.npy
   bool pictures = true;
+  Interpolation interpolation = Interpolation::kPerspective;  ///< of the shaded picture
 };
 
 void add_reference_option(CLI::App& command, std::string& method);

@@ -15,10 +15,6 @@
 namespace halfspace {
 namespace {
 
-using Rgb = std::array<std::uint8_t, 3>;
-
-constexpr Rgb kBackground{24, 26, 32};
-
 Rgb to_rgb(const glm::vec3& color) {
   const auto channel = [](float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255));

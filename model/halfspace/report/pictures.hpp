@@ -1,29 +1,14 @@
 /// Pictures of a run, for people.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
-#include <vector>
 
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/shade/picture.hpp"
 
 namespace halfspace {
-
-/// 8-bit RGB, row 0 on top.
-struct Picture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::array<std::uint8_t, 3>> pixels;
-
-  Picture(int w, int h)
-      : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-  [[nodiscard]] std::array<std::uint8_t, 3>& at(int x, int y) {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-};
 
 /// The triangles that own the surface, lit from the upper left. A frame has no normals and no projection
 /// matrix, so faces are rebuilt from clip space under an assumed vertical view of 60 degrees. One hue a draw.

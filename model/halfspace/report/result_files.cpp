@@ -5,6 +5,7 @@
 #include "halfspace/report/npy.hpp"
 #include "halfspace/report/pictures.hpp"
 #include "halfspace/report/stats.hpp"
+#include "halfspace/shade/shader.hpp"
 
 namespace halfspace {
 namespace {
@@ -47,7 +48,7 @@ std::string surface_label(const FrameResult& result, std::size_t number) {
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
                         const StallPlan& stalls, const RunResult& result,
-                        const std::optional<WhatIfReport>& what_if) {
+                        const std::optional<WhatIfReport>& what_if, Interpolation interpolation) {
   for (std::size_t i = 0; i < result.frame.surfaces.size(); ++i) {
     const Surface& surface = result.frame.surfaces[i];
     if (surface.codes.empty()) {
@@ -59,7 +60,9 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
       continue;  // no pictures asked for
     }
     const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, label)); };
-    write_png(picture("shaded"), shaded_picture(frame, result.frame, i));
+    write_png(picture("shaded"),
+              frame.attributes ? shade(frame, result.frame, i, config.raster.sub_pixel_bits, interpolation)
+                               : shaded_picture(frame, result.frame, i));
     if (!surface.target) {
       write_png(picture("depth"), depth_picture(surface));
     }

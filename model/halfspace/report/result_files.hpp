@@ -11,6 +11,7 @@
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
+#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
@@ -21,9 +22,11 @@ std::string surface_label(const FrameResult& result, std::size_t number);
 
 /// Writes depth<S>.npy, fragments<S>.npy and survivors<S>.npy of every surface, shaded<S>.png, depth<S>.png,
 /// overdraw<S>.png, tiles<S>.png and quads<S>.png where the run kept sums, and stats.json. S is its label;
-/// what has no depth has no depth<S>. Throws InputError.
+/// what has no depth has no depth<S>. The shaded
+/// picture of a frame with attributes interpolates them so (shade/shader.hpp). Throws InputError.
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
                         const StallPlan& stalls, const RunResult& result,
-                        const std::optional<WhatIfReport>& what_if);
+                        const std::optional<WhatIfReport>& what_if,
+                        Interpolation interpolation = Interpolation::kPerspective);
 
 }  // namespace halfspace

@@ -11,13 +11,16 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "halfspace/numerics/error.hpp"
+#include "halfspace/scene/mesh_attributes.hpp"
 #include "halfspace/scene/mesh_camera.hpp"
 #include "halfspace/scene/validate.hpp"
 
@@ -263,6 +266,10 @@ Frame frame_from_mesh(const Mesh& mesh, const Camera& camera, std::string_view n
       frame.indices.push_back(vertex_of[index]);
     }
     frame.commands.push_back(draw);
+  }
+  if (mesh.attributes != nullptr) {
+    frame.attributes = std::make_shared<const FrameAttributes>(
+        FrameAttributes{.mesh = mesh.attributes, .from_clip = glm::inverse(view.from_eye)});
   }
   validate(frame);
   return frame;

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,8 @@ struct Command {
   }
 };
 
+struct FrameAttributes;
+
 struct Frame {
   std::string name;
   std::vector<Target> targets;
@@ -132,6 +135,8 @@ struct Frame {
   std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
   std::vector<std::string> left_out;   ///< what of the input is not in the frame: "free-form curves (3)"
   std::vector<std::string> cameras;    ///< names of the cameras that stand in the mesh's file
+  /// Of the corners of its triangles (scene/mesh_attributes.hpp), where it is one mesh that has them.
+  std::shared_ptr<const FrameAttributes> attributes;
 };
 
 }  // namespace halfspace

@@ -97,6 +97,36 @@ bool FrontEnd::read(std::uint32_t at, Clip& vertex, FrontEndCounters& counters) 
   return is_finite;
 }
 
+template <class Vertex, class Position>
+bool FrontEnd::clip_to_planes(Polygon<Vertex>& polygon, const Position& position) const {
+  bool cut = false;
+  for (std::size_t p = 0; p < plane_count_ && polygon.size != 0; ++p) {
+    const auto distance = [&](const Vertex& v) { return glm::dot(planes_[p], position(v)); };
+    if (distance(polygon.v[0]) < 0 || std::any_of(polygon.v.begin() + 1, polygon.v.begin() + polygon.size,
+                                                  [&](const Vertex& v) { return distance(v) < 0; })) {
+      polygon = clip(polygon, distance);
+      cut = true;
+    }
+  }
+  return cut;
+}
+
+Polygon<FrontEnd::Corner> FrontEnd::corners(std::uint32_t index) const {
+  Polygon<Corner> polygon;
+  FrontEndCounters uncounted;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    Clip v;
+    if (!read(index * 3 + i, v, uncounted)) {
+      return {};
+    }
+    Corner corner{.clip = v, .weights = {}};
+    corner.weights[static_cast<int>(i)] = 1;
+    polygon.push(corner);
+  }
+  clip_to_planes(polygon, [](const Corner& corner) -> const Clip& { return corner.clip; });
+  return polygon;
+}
+
 void FrontEnd::process(std::uint32_t index, std::vector<ScreenTriangle>& out,
                        FrontEndCounters& counters) const {
   ++counters.triangles;
@@ -121,15 +151,7 @@ void FrontEnd::process_triangle(std::uint32_t index, std::vector<ScreenTriangle>
     }
     polygon.push(v);
   }
-  bool cut = false;
-  for (std::size_t p = 0; p < plane_count_ && polygon.size != 0; ++p) {
-    const auto distance = [&](const Clip& v) { return glm::dot(planes_[p], v); };
-    if (distance(polygon.v[0]) < 0 || std::any_of(polygon.v.begin() + 1, polygon.v.begin() + polygon.size,
-                                                  [&](const Clip& v) { return distance(v) < 0; })) {
-      polygon = clip(polygon, distance);
-      cut = true;
-    }
-  }
+  const bool cut = clip_to_planes(polygon, [](const Clip& v) -> const Clip& { return v; });
   if (polygon.size < 3) {
     ++counters.clipped_away;
     return;

@@ -45,6 +45,26 @@ class FrontEnd {
   [[nodiscard]] Depth depth() const { return {z_scale_, z_bias_, z_least_, z_most_}; }
   [[nodiscard]] bool clips_depth() const { return !depth_clamp_; }
 
+  /// A corner of what clipping leaves of a triangle, and the weights of the triangle's vertices in it.
+  struct Corner {
+    glm::dvec4 clip{0};
+    glm::dvec3 weights{0};
+
+    friend Corner operator*(const Corner& a, double factor) {
+      return {.clip = a.clip * factor, .weights = a.weights * factor};
+    }
+    friend Corner operator-(const Corner& a, const Corner& b) {
+      return {.clip = a.clip - b.clip, .weights = a.weights - b.weights};
+    }
+    friend Corner operator/(const Corner& a, double divisor) {
+      return {.clip = a.clip / divisor, .weights = a.weights / divisor};
+    }
+  };
+
+  /// The corners that process() clips triangle `index` to, in the order of its fan: triangle n of the fan has
+  /// corners 0, n + 1 and n + 2. Fewer than three, or one with w not above 0, where process() appends none.
+  [[nodiscard]] Polygon<Corner> corners(std::uint32_t index) const;
+
   /// Appends what primitive `index` of the draw becomes.
   void process(std::uint32_t index, std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
 
@@ -96,11 +116,15 @@ class FrontEnd {
   void emit_snapped(ScreenTriangle triangle, std::array<double, 3> z, double offset,
                     std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
 
+  /// Whether any plane cut the polygon.
+  template <class Vertex, class Position>
+  bool clip_to_planes(Polygon<Vertex>& polygon, const Position& position) const;
   [[nodiscard]] Window to_window(const Clip& v) const;
   void emit_fan(const Polygon<Window>& polygon, std::uint32_t index, std::vector<ScreenTriangle>& out,
                 FrontEndCounters& counters) const;
   void emit(const std::array<Window, 3>& corner, double offset_unit, std::uint32_t index,
             std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
+  [[nodiscard]] const glm::vec4& vertex(std::uint32_t index, std::uint32_t corner) const;
   [[nodiscard]] double offset_unit(const Polygon<Window>& polygon) const;
   [[nodiscard]] double offset_of(const ScreenTriangle& snapped, const std::array<double, 3>& z,
                                  double offset_unit) const;

@@ -17,7 +17,7 @@ bool is_finite(glm::dvec3 position) {
   return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
 }
 
-Mesh read_mesh(const std::filesystem::path& path) {
+Mesh read_mesh(const std::filesystem::path& path, MeshContent content) {
   const std::string name = display_name(path);
   const InputName input = input_name(path);
   if (!input.is_mesh()) {
@@ -25,9 +25,9 @@ Mesh read_mesh(const std::filesystem::path& path) {
                                  kMeshExtensions, kPackedExtensions));
   }
   const std::vector<std::byte> bytes = read_bytes(path);
-  if (input.kind == InputKind::kObj) return parse_obj(bytes, name);
-  if (input.kind == InputKind::kPly) return parse_ply(bytes, name);
-  return parse_gltf(bytes, name, path.parent_path());
+  if (input.kind == InputKind::kObj) return parse_obj(bytes, name, path.parent_path(), content);
+  if (input.kind == InputKind::kPly) return parse_ply(bytes, name, content);
+  return parse_gltf(bytes, name, path.parent_path(), content);
 }
 
 }  // namespace halfspace

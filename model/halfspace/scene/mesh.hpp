@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ namespace halfspace {
 
 inline constexpr std::uint64_t kMaxMeshVertices = std::uint64_t{1} << 25;
 inline constexpr std::uint64_t kMaxMeshTriangles = std::uint64_t{1} << 25;
+
+struct MeshAttributes;
 
 /// A run of a mesh's indices: one material or primitive, drawn by one draw.
 struct MeshPart {
@@ -44,17 +47,23 @@ struct Mesh {
   std::vector<MeshPart> parts;
   std::vector<MeshCamera> cameras;
   std::vector<std::string> left_out;  ///< what of the file is not in the mesh: "free-form curves (3)"
+  /// Colours, texture coordinates, normals and materials; null where none are there or none were asked for.
+  std::shared_ptr<const MeshAttributes> attributes;
 };
+
+/// What of a file is read.
+enum class MeshContent { kGeometry, kAttributes };  ///< triangles alone; the attributes of their corners, too
 
 /// All three coordinates.
 [[nodiscard]] bool is_finite(glm::dvec3 position);
 
 /// The mesh in an .obj, .ply, .gltf or .glb file (by extension, as load() takes it; its bytes may be packed
 /// by gzip or xz). Polygons are triangulated; a glTF scene's instances are written out. Materials, images and
-/// all vertex attributes but the position are passed over; whatever else of the file is not in the mesh is
-/// listed in `left_out`. No material or image file is opened; buffers of a glTF file are only from its own
-/// folder or below. Throws InputError when the file cannot be read, is damaged or contradicts itself, has no
-/// triangle, line or point, or has more than kMaxMeshVertices positions or kMaxMeshTriangles of these.
-[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+/// all vertex attributes but the position are passed over unless `content` wants them; whatever else of the
+/// file is not in the mesh is listed in `left_out`. Other files are only from the mesh's own folder or below;
+/// without attributes none but the buffers of a glTF file. Throws InputError when the file cannot be read, is
+/// damaged or contradicts itself, has no triangle, line or point, or has more than
+/// kMaxMeshVertices positions or kMaxMeshTriangles of these.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path, MeshContent content = MeshContent::kGeometry);
 
 }  // namespace halfspace

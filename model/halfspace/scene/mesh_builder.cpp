@@ -49,22 +49,47 @@ void MeshBuilder::add_vertex(glm::dvec3 position) {
   mesh_.positions.push_back(position);
 }
 
-void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
+bool MeshBuilder::check_face(std::span<const std::uint32_t> corners) {
   if (corners.size() < 3) {
     leave_out("faces with fewer than three corners");
-    return;
+    return false;
   }
-  if (!check_finite(corners, "faces with a vertex that is not finite")) return;
+  if (!check_finite(corners, "faces with a vertex that is not finite")) return false;
   check_room(0, corners.size() - 2);
+  return true;
+}
+
+void MeshBuilder::refuse_concave(std::size_t corners) const {
+  throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
+                               corners, kMaxConcaveCorners));
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners) {
+  if (!check_face(corners)) return;
   if (corners.size() == 3) {
     for (const std::uint32_t corner : corners) mesh_.indices.push_back(corner);
     return;
   }
   reserve_triangles(corners.size() - 2);
-  if (!triangulate(corners, mesh_.positions, mesh_.indices)) {
-    throw InputError(fmt::format("{}: a face that is not convex has {} corners; legal: at most {}", name_,
-                                 corners.size(), kMaxConcaveCorners));
+  if (!triangulate(corners, mesh_.positions, mesh_.indices)) refuse_concave(corners.size());
+}
+
+void MeshBuilder::add_face(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& order) {
+  order.clear();
+  if (!check_face(corners)) return;
+  // By its places, which triangulate() sees as it sees the vertices: only positions count.
+  std::vector<glm::dvec3> positions;
+  std::vector<std::uint32_t> places;
+  positions.reserve(corners.size());
+  places.reserve(corners.size());
+  order.reserve(3 * (corners.size() - 2));
+  for (std::uint32_t place = 0; place < corners.size(); ++place) {
+    positions.push_back(mesh_.positions[corners[place]]);
+    places.push_back(place);
   }
+  if (!triangulate(places, positions, order)) refuse_concave(corners.size());
+  reserve_triangles(corners.size() - 2);
+  for (const std::uint32_t place : order) mesh_.indices.push_back(corners[place]);
 }
 
 bool MeshBuilder::check_finite(std::span<const std::uint32_t> vertices, std::string_view what) {

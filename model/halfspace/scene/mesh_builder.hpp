@@ -33,6 +33,8 @@ class MeshBuilder {
   /// A face of these vertices, each below vertex_count(), is cut into triangles. One of fewer than three
   /// corners is left out and counted.
   void add_face(std::span<const std::uint32_t> corners);
+  /// The same. `order` becomes the corners of its triangles, three each, as places in `corners`.
+  void add_face(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& order);
 
   /// Lines from each vertex to the next, each below vertex_count(); `closed`: and from the last to the first.
   /// Fewer than two vertices are left out and counted. Lines of a strip share their stipple.
@@ -43,6 +45,9 @@ class MeshBuilder {
   /// Ends a draw: all faces since the last part, if there are any; lines and points are draws of their own
   /// behind it.
   void end_part(const std::string& part_name);
+
+  [[nodiscard]] std::size_t part_count() const { return mesh_.parts.size(); }
+  [[nodiscard]] std::size_t index_count() const { return mesh_.indices.size(); }
 
   /// So many of `what`, a plural for people, are not in the mesh.
   void leave_out(std::string_view what, std::uint64_t count = 1);
@@ -56,6 +61,9 @@ class MeshBuilder {
   /// Whether all are; where not, `what` is left out.
   bool check_finite(std::span<const std::uint32_t> vertices, std::string_view what);
   void end_part(const std::string& part_name, Primitive primitive, std::vector<std::uint32_t>& indices);
+  /// Whether a face becomes triangles; else it is counted.
+  bool check_face(std::span<const std::uint32_t> corners);
+  [[noreturn]] void refuse_concave(std::size_t corners) const;
 
   std::string_view name_;
   Mesh mesh_;

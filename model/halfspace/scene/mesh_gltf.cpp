@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "halfspace/scene/gltf/animation.hpp"
+#include "halfspace/scene/gltf/attributes.hpp"
 #include "halfspace/scene/gltf/buffers.hpp"
 #include "halfspace/scene/gltf/cameras.hpp"
 #include "halfspace/scene/gltf/document.hpp"
@@ -30,9 +32,9 @@ namespace {
 
 class SceneReader {
  public:
-  SceneReader(const Document& document, Buffers& buffers, MeshBuilder& mesh)
+  SceneReader(const Document& document, Buffers& buffers, MeshBuilder& mesh, AttributeSource* attributes)
       : document_(document),
-        source_{document, buffers, mesh, 0, {}},
+        source_{document, buffers, mesh, attributes, 0, {}},
         poses_(poses_at_start(document, buffers, mesh)),
         nodes_(document, poses_) {}
 
@@ -60,8 +62,9 @@ class SceneReader {
     }
     for (std::size_t number = 0; number < mesh.count("primitives"); ++number) {
       const Object primitive = mesh.item("primitives", number);
-      const auto drawn = read_primitive(source_, primitive, instances ? instances->count() : 1);
+      auto drawn = read_primitive(source_, primitive, instances ? instances->count() : 1);
       if (drawn) {
+        morph_normals(*drawn, primitive, weights);
         const Morph morph(document_, source_.buffers, primitive, weights, drawn->positions.count());
         if (skin && !drawn->influences.empty()) {
           if (instances && instances->count() > 1) {
@@ -74,6 +77,20 @@ class SceneReader {
         }
       }
       source_.mesh.end_part(part_name(mesh, index, primitive, number));
+      if (source_.attributes != nullptr) {
+        const std::uint32_t material = drawn ? drawn->attributes.material.number : kNoAttribute;
+        source_.attributes->builder.end_parts(source_.mesh.part_count(), material);
+      }
+    }
+  }
+
+  void morph_normals(Primitive& drawn, const Object& primitive, const std::vector<double>& weights) {
+    if (!drawn.attributes.normals) return;
+    try {
+      drawn.attributes.morphed_normals.emplace(document_, source_.buffers, primitive, weights,
+                                               drawn.positions.count(), "NORMAL");
+    } catch (const InputError&) {
+      source_.mesh.leave_out("morph targets of normals that cannot be read");
     }
   }
 
@@ -95,10 +112,13 @@ class SceneReader {
             ? found->second
             : skins_.try_emplace(skin, source_.document, source_.buffers, nodes_, skin).first->second;
     check_room(primitive, 1);
-    add_copy(primitive, [&](std::uint32_t vertex) {
-      const glm::dvec3 position = primitive.positions.vec3(vertex) + morph.displacement(vertex);
-      return joints.place(primitive.influences, vertex, position);
-    });
+    add_copy(
+        primitive,
+        [&](std::uint32_t vertex) {
+          const glm::dvec3 position = primitive.positions.vec3(vertex) + morph.displacement(vertex);
+          return joints.place(primitive.influences, vertex, position);
+        },
+        [&](std::uint32_t vertex) { return normal_matrix(joints.blended(primitive.influences, vertex)); });
   }
 
   void add_placed(const Primitive& primitive, const Morph& morph, const glm::dmat4& world,
@@ -108,10 +128,14 @@ class SceneReader {
     if (primitive.corners.empty()) return;
     for (std::size_t i = 0; i < count; ++i) {
       const glm::dmat4 matrix = instances ? world * instances->transform(i) : world;
-      add_copy(primitive, [&](std::uint32_t vertex) {
-        const glm::dvec3 position = primitive.positions.vec3(vertex) + morph.displacement(vertex);
-        return glm::dvec3(matrix * glm::dvec4(position, 1));
-      });
+      const glm::dmat3 of_normals = normal_matrix(matrix);
+      add_copy(
+          primitive,
+          [&](std::uint32_t vertex) {
+            const glm::dvec3 position = primitive.positions.vec3(vertex) + morph.displacement(vertex);
+            return glm::dvec3(matrix * glm::dvec4(position, 1));
+          },
+          [&](std::uint32_t) { return of_normals; });
     }
   }
 
@@ -124,10 +148,12 @@ class SceneReader {
                             times(is_triangles ? primitive.corners.size() / 3 : primitive.corners.size()));
   }
 
-  template <typename Place>
-  void add_copy(const Primitive& primitive, const Place& place) {
+  /// `matrix`: of a vertex's normal.
+  template <typename Place, typename Matrix>
+  void add_copy(const Primitive& primitive, const Place& place, const Matrix& matrix) {
     const std::uint32_t first = source_.mesh.vertex_count();
     for (const std::uint32_t vertex : primitive.vertices) source_.mesh.add_vertex(place(vertex));
+    if (source_.attributes != nullptr) store_attributes(primitive, first, matrix);
     if (primitive.kind != halfspace::Primitive::kTriangles) return add_others(primitive, first);
     for (std::size_t i = 0; i < primitive.corners.size(); i += 3) {
       const std::uint32_t face[3] = {first + primitive.corners[i], first + primitive.corners[i + 1],
@@ -152,6 +178,20 @@ class SceneReader {
     }
   }
 
+  /// Of the vertices from `first` on, which are those of the primitive.
+  template <typename Matrix>
+  void store_attributes(const Primitive& primitive, std::uint32_t first, const Matrix& matrix) {
+    AttributeBuilder& builder = source_.attributes->builder;
+    std::uint32_t next = first;
+    for (const std::uint32_t vertex : primitive.vertices) {
+      primitive.attributes.store(vertex, next, builder);
+      if (const auto normal = primitive.attributes.normal(vertex)) {
+        builder.set_normal(next, glm::vec3(glm::normalize(matrix(vertex) * *normal)));
+      }
+      ++next;
+    }
+  }
+
   const Document& document_;
   Source source_;
   Poses poses_;
@@ -162,15 +202,24 @@ class SceneReader {
 }  // namespace
 }  // namespace gltf
 
-Mesh parse_gltf(std::span<const std::byte> bytes, std::string_view name,
-                const std::filesystem::path& folder) {
+Mesh parse_gltf(std::span<const std::byte> bytes, std::string_view name, const std::filesystem::path& folder,
+                MeshContent content) {
   const gltf::Document document(bytes, name);
   gltf::Buffers buffers(document, folder);
   MeshBuilder mesh(name);
   if (document.bytes_behind() > 0) mesh.leave_out("bytes behind the GLB's length", document.bytes_behind());
   gltf::check_extensions(document, mesh);
-  gltf::SceneReader(document, buffers, mesh).run();
-  return std::move(mesh).finish();
+  gltf::AttributeSource attributes(document, buffers, mesh);
+  const bool wanted = content == MeshContent::kAttributes;
+  gltf::SceneReader(document, buffers, mesh, wanted ? &attributes : nullptr).run();
+  Mesh out = std::move(mesh).finish();
+  if (wanted) std::move(attributes.builder).finish(out);
+  return out;
+}
+
+Mesh parse_gltf(std::span<const std::byte> bytes, std::string_view name,
+                const std::filesystem::path& folder) {
+  return parse_gltf(bytes, name, folder, MeshContent::kGeometry);
 }
 
 }  // namespace halfspace

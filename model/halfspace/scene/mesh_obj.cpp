@@ -6,7 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -16,6 +18,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
+#include "halfspace/scene/obj_attributes.hpp"
 #include "halfspace/scene/quote.hpp"
 #include "halfspace/scene/text.hpp"
 
@@ -26,6 +29,9 @@ enum class Statement {
   kVertex,
   kFace,
   kMaterial,
+  kTextureCoordinate,  // passed over, as the next two are, where no attributes are wanted
+  kNormal,
+  kLibrary,
   kPassedOver,  // says nothing about where triangles are
   kPoint,
   kLine,
@@ -42,13 +48,13 @@ struct Keyword {
 // The most frequent ones first. Behind "call": what older versions of the format had.
 constexpr std::array<Keyword, 45> kKeywords{{{"v", Statement::kVertex},
                                              {"f", Statement::kFace},
-                                             {"vt", Statement::kPassedOver},
-                                             {"vn", Statement::kPassedOver},
+                                             {"vt", Statement::kTextureCoordinate},
+                                             {"vn", Statement::kNormal},
                                              {"usemtl", Statement::kMaterial},
                                              {"g", Statement::kPassedOver},
                                              {"s", Statement::kPassedOver},
                                              {"o", Statement::kPassedOver},
-                                             {"mtllib", Statement::kPassedOver},
+                                             {"mtllib", Statement::kLibrary},
                                              {"p", Statement::kPoint},
                                              {"l", Statement::kLine},
                                              {"curv", Statement::kCurve},
@@ -97,6 +103,9 @@ class ObjParser {
   ObjParser(std::string_view text, std::string_view name)
       : name_(name), begin_(text.data()), at_(begin_), end_(begin_ + text.size()), builder_(name) {}
 
+  /// Material libraries and images are in the folder or below.
+  void want_attributes(const std::filesystem::path& folder) { attributes_.emplace(folder, builder_); }
+
   Mesh run() {
     if (const std::size_t zero = rest(begin_).find('\0'); zero != std::string_view::npos) {
       const std::size_t before = rest(begin_).substr(0, zero).find_last_of("\r\n");
@@ -107,11 +116,13 @@ class ObjParser {
       if (to_word()) parse_statement();
       to_next_line();
     }
-    builder_.end_part(material_);
+    end_part();
     leave_out("free-form curves", Statement::kCurve);
     leave_out("free-form surfaces", Statement::kSurface);
     leave_out("unknown statements", Statement::kUnknown);
-    return std::move(builder_).finish();
+    Mesh mesh = std::move(builder_).finish();
+    if (attributes_) std::move(*attributes_).finish(mesh);
+    return mesh;
   }
 
  private:
@@ -201,6 +212,15 @@ class ObjParser {
         return parse_face();
       case Statement::kMaterial:
         return parse_material();
+      case Statement::kTextureCoordinate:
+        if (attributes_) attributes_->add_uv(rest_of_numbers());
+        return;
+      case Statement::kNormal:
+        if (attributes_) attributes_->add_normal(rest_of_numbers());
+        return;
+      case Statement::kLibrary:
+        if (attributes_) attributes_->add_libraries(rest_of_words());
+        return;
       case Statement::kPassedOver:
         return;
       case Statement::kPoint:
@@ -217,7 +237,7 @@ class ObjParser {
     }
   }
 
-  /// What follows the third number, a weight or a colour, is passed over.
+  /// What follows the third number is a weight, a colour, or both.
   void parse_vertex() {
     glm::dvec3 position{0};
     for (int i = 0; i < 3; ++i) {
@@ -227,14 +247,44 @@ class ObjParser {
       }
       at_ += size;
     }
+    if (attributes_) attributes_->add_color(builder_.vertex_count(), rest_of_numbers());
     builder_.add_vertex(position);
+  }
+
+  /// The numbers up to the end of the statement or the first word that is none.
+  std::vector<double> rest_of_numbers() {
+    std::vector<double> numbers;
+    double number = 0;
+    while (numbers.size() < 4 && to_word()) {
+      const std::size_t size = read_number(rest(at_), number);
+      if (size == 0 || !is_number_end(at_ + size)) break;
+      at_ += size;
+      numbers.push_back(number);
+    }
+    return numbers;
+  }
+
+  /// The words up to the end of the statement, with one blank between them.
+  std::string rest_of_words() {
+    std::string words;
+    while (to_word()) {
+      if (!words.empty()) words += ' ';
+      words += take_word();
+    }
+    return words;
   }
 
   void parse_face() {
     corners_.clear();
     const std::int64_t vertices = builder_.vertex_count();
-    while (to_word()) corners_.push_back(parse_corner(vertices));
-    builder_.add_face(corners_);
+    while (to_word()) {
+      const char* const first = at_;
+      corners_.push_back(parse_corner(vertices));
+      if (attributes_) attributes_->add_corner({first, static_cast<std::size_t>(at_ - first)});
+    }
+    if (!attributes_) return builder_.add_face(corners_);
+    builder_.add_face(corners_, order_);
+    attributes_->end_face(order_);
   }
 
   void parse_points() {
@@ -277,13 +327,15 @@ class ObjParser {
 
   /// The faces from here on have the material; the name may have blanks.
   void parse_material() {
-    std::string material;
-    while (to_word()) {
-      if (!material.empty()) material += ' ';
-      material += take_word();
-    }
+    std::string material = rest_of_words();
     if (material == material_) return;
-    builder_.end_part(std::exchange(material_, std::move(material)));
+    end_part();
+    material_ = std::move(material);
+  }
+
+  void end_part() {
+    builder_.end_part(material_);
+    if (attributes_) attributes_->end_part(material_);
   }
 
   void leave_out(std::string_view what, Statement statement) {
@@ -295,8 +347,10 @@ class ObjParser {
   const char* at_;
   const char* end_;
   MeshBuilder builder_;
+  std::optional<ObjAttributes> attributes_;  // where they are wanted
   std::string material_;
   std::vector<std::uint32_t> corners_;  // of the face that is being read
+  std::vector<std::uint32_t> order_;    // of its corners in triangles, where attributes are wanted
   std::array<std::uint64_t, static_cast<std::size_t>(Statement::kUnknown) + 1> left_out_{};
 };
 
@@ -304,6 +358,13 @@ class ObjParser {
 
 Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name) {
   return ObjParser(text_of(bytes, name), name).run();
+}
+
+Mesh parse_obj(std::span<const std::byte> bytes, std::string_view name, const std::filesystem::path& folder,
+               MeshContent content) {
+  ObjParser parser(text_of(bytes, name), name);
+  if (content == MeshContent::kAttributes) parser.want_attributes(folder);
+  return parser.run();
 }
 
 }  // namespace halfspace

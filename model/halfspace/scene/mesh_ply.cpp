@@ -8,13 +8,16 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "halfspace/scene/mesh_attributes.hpp"
 #include "halfspace/scene/mesh_builder.hpp"
 #include "halfspace/scene/mesh_formats.hpp"
+#include "halfspace/scene/ply_attributes.hpp"
 #include "halfspace/scene/ply_header.hpp"
 #include "halfspace/scene/ply_numbers.hpp"
 #include "halfspace/scene/quote.hpp"
@@ -53,8 +56,8 @@ class Strip {
 template <typename Numbers>
 class BodyParser {
  public:
-  BodyParser(std::string_view name, const Header& header)
-      : name_(name), header_(header), numbers_(name, header.body), builder_(name) {}
+  BodyParser(std::string_view name, const Header& header, MeshContent content)
+      : name_(name), header_(header), content_(content), numbers_(name, header.body), builder_(name) {}
 
   Mesh run() {
     for (const Element& element : header_.elements) parse_element(element);
@@ -64,7 +67,9 @@ class BodyParser {
     }
     add_cloud();
     builder_.end_part("face");
-    return std::move(builder_).finish();
+    Mesh mesh = std::move(builder_).finish();
+    std::move(attributes_).finish(mesh);
+    return mesh;
   }
 
  private:
@@ -134,16 +139,21 @@ class BodyParser {
       refuse(name_, "element \"vertex\" lacks x, y or z; legal: all three, not lists");
     }
     builder_.reserve_vertices(element.count);
+    std::optional<VertexAttributes> attributes;
+    if (content_ == MeshContent::kAttributes) attributes.emplace(element, attributes_);
     for (std::uint64_t i = 0; i < element.count; ++i) {
       glm::dvec3 position{0};
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const auto* const axis = std::find(axes.begin(), axes.end(), p);
-        if (axis == axes.end()) {
-          pass_over(element.properties[p]);
-        } else {
+        if (axis != axes.end()) {
           position[static_cast<int>(axis - axes.begin())] = numbers_.next_real(element.properties[p].type);
+        } else if (attributes && attributes->wants(p)) {
+          attributes->take(p, numbers_.next_real(element.properties[p].type));
+        } else {
+          pass_over(element.properties[p]);
         }
       }
+      if (attributes) attributes->store(builder_.vertex_count());
       builder_.add_vertex(position);
     }
   }
@@ -270,8 +280,10 @@ class BodyParser {
 
   std::string_view name_;
   const Header& header_;
+  MeshContent content_;
   Numbers numbers_;
   MeshBuilder builder_;
+  AttributeBuilder attributes_;
   std::vector<std::pair<const Element*, Numbers>>
       waiting_;                         // faces before the vertices, and where they begin
   std::vector<std::uint32_t> corners_;  // of the face that is being read
@@ -280,17 +292,21 @@ class BodyParser {
 }  // namespace
 }  // namespace ply
 
-Mesh parse_ply(std::span<const std::byte> bytes, std::string_view name) {
+Mesh parse_ply(std::span<const std::byte> bytes, std::string_view name, MeshContent content) {
   const ply::Header header = ply::parse_header(text_of(bytes, name), name);
   switch (header.encoding) {
     case ply::Encoding::kAscii:
-      return ply::BodyParser<ply::TextNumbers>(name, header).run();
+      return ply::BodyParser<ply::TextNumbers>(name, header, content).run();
     case ply::Encoding::kLittleEndian:
-      return ply::BodyParser<ply::BinaryNumbers<std::endian::little>>(name, header).run();
+      return ply::BodyParser<ply::BinaryNumbers<std::endian::little>>(name, header, content).run();
     case ply::Encoding::kBigEndian:
       break;
   }
-  return ply::BodyParser<ply::BinaryNumbers<std::endian::big>>(name, header).run();
+  return ply::BodyParser<ply::BinaryNumbers<std::endian::big>>(name, header, content).run();
+}
+
+Mesh parse_ply(std::span<const std::byte> bytes, std::string_view name) {
+  return parse_ply(bytes, name, MeshContent::kGeometry);
 }
 
 }  // namespace halfspace

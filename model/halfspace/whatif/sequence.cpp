@@ -41,6 +41,7 @@ void append(Frame& all, const Frame& next) {
                                  next.name, text_of(next.targets), text_of(all.targets)));
   }
   all.name += ", " + next.name;
+  all.attributes.reset();  // which are of one mesh
   check_room(all, "vertices", all.vertices.size() + next.vertices.size());
   check_room(all, "indices", all.indices.size() + next.indices.size());
   for (Command command : next.commands) {

@@ -43,6 +43,9 @@ void check(const WhatIf& what_if, std::size_t frames) {
 Sequence apply(std::vector<Frame> frames, const WhatIf& what_if) {
   check(what_if, frames.size());
   std::vector<Applied> applied;
+  for (Frame& frame : frames) {
+    if (what_if.any()) frame.attributes.reset();  // their triangles are no longer those of the mesh, in order
+  }
   const auto each = [&](const char* name, const auto& act) {
     Acted acted;
     for (std::size_t i = 0; i < frames.size(); ++i) {

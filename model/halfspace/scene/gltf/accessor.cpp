@@ -48,6 +48,7 @@ bool is_real(Component component) {
 
 unsigned width_of(std::string_view type) {
   if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   return type == "VEC4" ? 4 : 16;
 }
@@ -102,6 +103,10 @@ const Use kIndexUse{"indices", "SCALAR", kIndexNumber};
 const Use kJointUse{"JOINTS", "VEC4", kJointNumber};
 const Use kWeightUse{"WEIGHTS", "VEC4", kUnsignedFraction, true};
 const Use kInverseBindUse{"inverseBindMatrices", "MAT4", kFloatNumber};
+const Use kNormalUse{"NORMAL", "VEC3", kAnyNumber};
+const Use kTextureUse{"TEXCOORD", "VEC2", kAnyNumber};
+const Use kColor3Use{"COLOR", "VEC3", kUnsignedFraction, true};
+const Use kColor4Use{"COLOR", "VEC4", kUnsignedFraction, true};
 const Use kTranslationUse{"TRANSLATION", "VEC3", kAnyNumber};
 const Use kRotationUse{"ROTATION", "VEC4", kAnyNumber, true};
 const Use kScaleUse{"SCALE", "VEC3", kAnyNumber};
@@ -237,6 +242,11 @@ double Accessor::real(const std::byte* element, unsigned at) const {
       break;
   }
   return load<double>(from);
+}
+
+glm::dvec2 Accessor::vec2(std::size_t element) const {
+  const std::byte* const from = at(element);
+  return {real(from, 0), real(from, 1)};
 }
 
 glm::dvec3 Accessor::vec3(std::size_t element) const {

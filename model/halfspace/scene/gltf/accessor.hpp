@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
@@ -36,6 +37,10 @@ extern const Use kIndexUse;
 extern const Use kJointUse;
 extern const Use kWeightUse;
 extern const Use kInverseBindUse;
+extern const Use kNormalUse;
+extern const Use kTextureUse;
+extern const Use kColor3Use;
+extern const Use kColor4Use;
 extern const Use kTranslationUse;
 extern const Use kRotationUse;
 extern const Use kScaleUse;
@@ -67,6 +72,7 @@ class Accessor {
 
   /// Elements below count(); normalized whole numbers as fractions.
   [[nodiscard]] double scalar(std::size_t element) const { return real(at(element), 0); }
+  [[nodiscard]] glm::dvec2 vec2(std::size_t element) const;
   [[nodiscard]] glm::dvec3 vec3(std::size_t element) const;
   [[nodiscard]] glm::dvec4 vec4(std::size_t element) const;
   [[nodiscard]] glm::dmat4 mat4(std::size_t element) const;

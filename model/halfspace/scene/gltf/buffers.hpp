@@ -32,9 +32,11 @@ class Buffers {
   /// Throws InputError when the view is not within its buffer, or the buffer cannot be had.
   [[nodiscard]] View view(std::uint64_t index);
 
+  /// The bytes that the URI of `from` stands for: data, or a file. Throws InputError.
+  [[nodiscard]] std::vector<std::byte> load(const Object& from, const std::string& uri);
+
  private:
   [[nodiscard]] std::span<const std::byte> buffer(std::uint64_t index);
-  [[nodiscard]] std::vector<std::byte> load(const Object& buffer, const std::string& uri);
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& uri) const;
   [[nodiscard]] bool is_there(std::uint64_t index) const;
   /// The bytes that `slice`, a buffer view or its extension, names.

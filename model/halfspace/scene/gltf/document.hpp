@@ -28,11 +28,14 @@ inline constexpr Table kAnimations{"animations", "animation"};
 inline constexpr Table kBuffers{"buffers", "buffer"};
 inline constexpr Table kBufferViews{"bufferViews", "bufferView"};
 inline constexpr Table kCameras{"cameras", "camera"};
+inline constexpr Table kImages{"images", "image"};
 inline constexpr Table kMaterials{"materials", "material"};
 inline constexpr Table kMeshes{"meshes", "mesh"};
 inline constexpr Table kNodes{"nodes", "node"};
+inline constexpr Table kSamplers{"samplers", "sampler"};
 inline constexpr Table kScenes{"scenes", "scene"};
 inline constexpr Table kSkins{"skins", "skin"};
+inline constexpr Table kTextures{"textures", "texture"};
 
 class Document {
  public:

@@ -15,7 +15,7 @@ std::vector<double> morph_weights(const Object& node, const Object& mesh, const 
 }
 
 Morph::Morph(const Document& document, Buffers& buffers, const Object& primitive,
-             const std::vector<double>& weights, std::size_t vertices) {
+             const std::vector<double>& weights, std::size_t vertices, const char* attribute) {
   const std::size_t targets = primitive.count("targets");
   if (targets != weights.size()) {
     primitive.fail("targets has {} objects; legal: {}, as the mesh's first primitive", targets,
@@ -23,18 +23,18 @@ Morph::Morph(const Document& document, Buffers& buffers, const Object& primitive
   }
   for (std::size_t i = 0; i < targets; ++i) {
     const Object target = primitive.item("targets", i);
-    if (weights[i] == 0 || !target.has("POSITION")) continue;
-    Accessor positions(document, buffers, target.number("POSITION"), kPositionUse);
-    if (positions.count() != vertices) {
-      target.fail("POSITION has {} elements; legal: {}, as the primitive's", positions.count(), vertices);
+    if (weights[i] == 0 || !target.has(attribute)) continue;
+    Accessor values(document, buffers, target.number(attribute), kPositionUse);
+    if (values.count() != vertices) {
+      target.fail("{} has {} elements; legal: {}, as the primitive's", attribute, values.count(), vertices);
     }
-    targets_.push_back({weights[i], positions});
+    targets_.push_back({weights[i], values});
   }
 }
 
 glm::dvec3 Morph::displacement(std::size_t vertex) const {
   glm::dvec3 sum(0);
-  for (const Target& target : targets_) sum += target.weight * target.positions.vec3(vertex);
+  for (const Target& target : targets_) sum += target.weight * target.values.vec3(vertex);
   return sum;
 }
 

@@ -18,20 +18,20 @@ namespace halfspace::gltf {
 /// The weights of the node's mesh: of the pose, else the node's, else the mesh's, else zeros.
 [[nodiscard]] std::vector<double> morph_weights(const Object& node, const Object& mesh, const Pose& pose);
 
-/// What is added to a primitive's positions.
+/// What is added to a primitive's positions, or another attribute of three numbers.
 class Morph {
  public:
-  /// `weights`: one for each target. Throws InputError where the primitive has another number of targets, or
-  /// one with another number of vertices.
+  /// `weights`: one for each target. `attribute`: which. Throws InputError where the primitive has another
+  /// number of targets, or one with another number of vertices.
   Morph(const Document& document, Buffers& buffers, const Object& primitive,
-        const std::vector<double>& weights, std::size_t vertices);
+        const std::vector<double>& weights, std::size_t vertices, const char* attribute = "POSITION");
 
   [[nodiscard]] glm::dvec3 displacement(std::size_t vertex) const;
 
  private:
   struct Target {
     double weight;
-    Accessor positions;
+    Accessor values;
   };
   std::vector<Target> targets_;  // those with an effect
 };

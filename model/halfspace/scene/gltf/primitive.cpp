@@ -96,9 +96,10 @@ class PrimitiveReader {
                                          : is_triangles
                                              ? list_triangles(read_order(positions), topology, source_.mesh)
                                              : list_others(read_order(positions), topology, source_.mesh);
-    Primitive out{{}, std::move(corners), positions, read_influences(positions.count()), {}};
+    Primitive out{{}, std::move(corners), positions, read_influences(positions.count()), {}, {}};
     out.kind = kind_of(topology);
     out.closed = topology == Topology::kLineLoop;
+    if (source_.attributes != nullptr) out.attributes = read_attributes(positions.count());
     out.unpacked = std::move(unpacked_);
     renumber(out);
     return out;
@@ -133,6 +134,34 @@ class PrimitiveReader {
       }
     }
     return {source_.document, source_.buffers, index, use};
+  }
+
+  PrimitiveAttributes read_attributes(std::size_t vertices) {
+    PrimitiveAttributes out;
+    out.material = source_.attributes->materials.use(object_);
+    out.normals = find_attribute("NORMAL", kNormalUse, vertices);
+    out.uvs = find_attribute(fmt::format("TEXCOORD_{}", out.material.uv_set), kTextureUse, vertices);
+    out.colors = find_attribute("COLOR_0", color_use(), vertices);
+    return out;
+  }
+
+  [[nodiscard]] const Use& color_use() const {
+    const auto index = attributes_.find_number("COLOR_0");
+    const bool is_vec3 = index && *index < source_.document.size(kAccessors) &&
+                         source_.document.get(kAccessors, *index).text_or("type", "") == "VEC3";
+    return is_vec3 ? kColor3Use : kColor4Use;
+  }
+
+  /// An attribute that a picture can do without: one that cannot be read is left out.
+  std::optional<Accessor> find_attribute(const std::string& name, const Use& use, std::size_t vertices) {
+    if (!attributes_.has(name.c_str())) return std::nullopt;
+    try {
+      const Accessor found = attribute(name, use);
+      if (found.count() == vertices) return found;
+    } catch (const InputError&) {  // said below
+    }
+    source_.mesh.leave_out(fmt::format("attributes {} that cannot be read", name));
+    return std::nullopt;
   }
 
   std::vector<Influences> read_influences(std::size_t vertices) {

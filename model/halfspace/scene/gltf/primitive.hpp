@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "halfspace/scene/gltf/accessor.hpp"
+#include "halfspace/scene/gltf/attributes.hpp"
 #include "halfspace/scene/gltf/draco.hpp"
 #include "halfspace/scene/gltf/skin.hpp"
 #include "halfspace/scene/mesh_builder.hpp"
@@ -24,6 +25,7 @@ struct Source {
   const Document& document;
   Buffers& buffers;
   MeshBuilder& mesh;
+  AttributeSource* attributes = nullptr;                                   ///< null where none are wanted
   std::uint64_t bare = 0;                                                  // elements so far
   std::unordered_map<std::uint64_t, std::unique_ptr<DracoMesh>> unpacked;  // by buffer view
 
@@ -37,6 +39,7 @@ struct Primitive {
   Accessor positions;
   std::vector<Influences> influences;            ///< none when it has no joints
   std::vector<std::vector<std::byte>> unpacked;  ///< what accessors refer to, if not to buffers
+  PrimitiveAttributes attributes;                ///< none where none are wanted
   halfspace::Primitive kind = halfspace::Primitive::kTriangles;  ///< of a strip or loop of lines, the strip
   bool closed = false;                                           ///< a loop: the corners are those of a strip
 };

@@ -41,4 +41,16 @@ glm::dvec3 Skin::place(const std::vector<Influences>& influences, std::size_t ve
   return glm::dvec3(sum) / total;
 }
 
+glm::dmat4 Skin::blended(const std::vector<Influences>& influences, std::size_t vertex) {
+  glm::dmat4 sum(0);
+  for (const Influences& four : influences) {
+    const glm::dvec4 weights = four.weights.vec4(vertex);
+    for (unsigned i = 0; i < 4; ++i) {
+      const double weight = weights[static_cast<int>(i)];
+      if (weight != 0) sum += weight * matrix(four.joints.whole(vertex, i));
+    }
+  }
+  return sum;
+}
+
 }  // namespace halfspace::gltf

@@ -32,6 +32,9 @@ class Skin {
   [[nodiscard]] glm::dvec3 place(const std::vector<Influences>& influences, std::size_t vertex,
                                  glm::dvec3 position);
 
+  /// The matrix of the vertex: the joints', by their weights.
+  [[nodiscard]] glm::dmat4 blended(const std::vector<Influences>& influences, std::size_t vertex);
+
  private:
   /// From the mesh's space to the world; made when it is first used, since a file can list joints by the
   /// million.
