@@ -172,6 +172,22 @@ TEST_CASE("glTF: memory is within its multiple of the file's size") {
   json["accessors"][0]["count"] = data.size() / 3;
   json["bufferViews"][0]["byteLength"] = data.size();
   CHECK(of_text(glb(json.dump(), data)) < kMostMemory);
+
+  // The same three bytes of a vertex are its position, normal, colour and texture coordinates.
+  json["accessors"].push_back({{"bufferView", 0},
+                               {"componentType", 5121},
+                               {"count", data.size() / 3},
+                               {"type", "VEC3"},
+                               {"normalized", true}});
+  json["accessors"].push_back(
+      {{"bufferView", 0}, {"componentType", 5121}, {"count", data.size() / 3}, {"type", "VEC2"}});
+  json["meshes"][0]["primitives"][0]["attributes"] = {
+      {"POSITION", 0}, {"NORMAL", 0}, {"COLOR_0", 2}, {"TEXCOORD_0", 3}};
+  CHECK(memory(glb(json.dump(), data), [](std::span<const std::byte> bytes, std::string_view name) {
+          const Mesh mesh = parse_gltf(bytes, name, "/nonexistent", MeshContent::kAttributes);
+          REQUIRE(mesh.attributes->colors.size() == mesh.positions.size());
+          return mesh;
+        }) < kMostMemory);
 }
 
 #endif
