@@ -50,6 +50,12 @@ ChainContext& GoldenModel::context() {
     return *context_;
   }
   validate(config_);
+  if (!sample_pattern(config_).is_centre()) {
+    throw InputError(
+        fmt::format("configuration key 'raster.samples' is {}; legal in the golden model: 1, at the "
+                    "pixel centre",
+                    config_.raster.samples));
+  }
   auto context = std::make_unique<ChainContext>();
   context->widths = widths(config_);
   context->interpolator = config_.depth.interpolator;

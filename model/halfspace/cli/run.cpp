@@ -126,11 +126,13 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
 ExitStatus run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
+    const Config config = command.machine.config(Samples::kAny);
+    require_centre(config, "--reference");
     run_reference({.method = command.reference,
                    .out = command.out,
                    .quads = command.quads,
                    .pictures = !command.no_pictures},
-                  whatif::join(command.input.frames()), command.machine.config());
+                  whatif::join(command.input.frames()), config);
     return ExitStatus::kDone;
   }
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -141,13 +143,17 @@ ExitStatus run_command(const RunCommand& command) {
   options.vcd = command.vcd;
   command.rtl.apply(options);
   const TimelineChoice choice = command.timeline.choice();
-  const Config config = command.machine.config();
+  const Config config = command.machine.config(Samples::kAny);
+  if (!command.tile_jobs.empty()) {
+    require_centre(config, "--tile-jobs");
+  }
   const whatif::WhatIf what_if = command.what_if.what_if();
   std::vector<Frame> frames = command.input.frames();
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
   std::optional<OutputFolder> folder;
   Recorder::Options record;
+  record.samples = config.raster.samples;
   if (!command.out.empty()) {
     folder.emplace(command.out);
     if (command.quads) {

@@ -70,7 +70,8 @@ DepthFormat format_of(const std::string& text) {
 stress::Precision precision_of(const StressCommand& command, const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .format = format_of(command.depth),
-          .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft)};
+          .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft),
+          .samples = sample_pattern(config)};
 }
 
 stress::CampaignPlan plan_of(const StressCommand& command, const Config& config) {
@@ -158,6 +159,19 @@ ExitStatus exhaustive_command(const StressCommand& command, Fidelity fidelity, c
   return status_of(tally.errors() == 0);
 }
 
+/// Only the families know of several samples a pixel, and only this machine has them.
+void check_samples(const StressCommand& command, const Config& config) {
+  for (const auto& [given, name] : {std::pair{command.reports, "--reports"},
+                                    {command.sharpness, "--sharpness"},
+                                    {command.exhaustive, "--exhaustive"},
+                                    {command.units, "--exhaustive-units"},
+                                    {!command.engine.empty(), "--engine"}}) {
+    if (given) {
+      require_centre(config, name);
+    }
+  }
+}
+
 ExitStatus stress_command(const StressCommand& command) {
   if (command.every != 1 && !command.exhaustive && !command.units) {
     throw OptionError(
@@ -169,7 +183,8 @@ ExitStatus stress_command(const StressCommand& command) {
   RunOptions options;
   command.rtl.apply(options);
   options.watch.core = command.core.core();
-  const Config config = command.machine.config();
+  const Config config = command.machine.config(Samples::kAny);
+  check_samples(command, config);
   if (command.exhaustive || command.units) {
     return exhaustive_command(command, fidelity, config, options);
   }

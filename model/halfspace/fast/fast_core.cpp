@@ -98,6 +98,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (reader != nullptr && reader->wants_tiles()) {
     return "a timeline";
   }
+  if (!sample_pattern(config).is_centre()) {
+    return "raster.samples, or a sample that is not at the centre of its pixel";
+  }
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }

@@ -1,8 +1,12 @@
 #include "halfspace/machine/draw_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -26,13 +30,14 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
           .y_last = last(scissor.y, scissor.height, target.height)};
 }
 
-PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
-  // Sums of two floats whose centre is wanted: exact in double wherever a target can be.
-  const auto side = [](double position, double extent, bool low_is_in, std::int32_t& first,
+PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule, const SamplePosition& sample) {
+  // Sums of two floats less a sample's way: exact in double wherever a target can be.
+  const auto side = [](double position, double extent, int way, bool low_is_in, std::int32_t& first,
                        std::int32_t& last) {
-    const double low = std::min(position, position + extent) - 0.5;
-    const double high = std::max(position, position + extent) - 0.5;
-    // A centre on the border belongs to the side that the tie rule gives it to, as a clipped edge would.
+    const double in_pixel = static_cast<double>(way) / kSampleGrid;
+    const double low = std::min(position, position + extent) - in_pixel;
+    const double high = std::max(position, position + extent) - in_pixel;
+    // A sample on the border belongs to the side that the tie rule gives it to, as a clipped edge would.
     const auto pixel = [](double value) {
       return static_cast<std::int32_t>(std::clamp(value, -1.0, 65536.0));
     };
@@ -40,8 +45,8 @@ PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
     last = pixel(low_is_in ? std::ceil(high) - 1 : std::floor(high));
   };
   PixelRect rect;
-  side(viewport.x, viewport.z, !owns_right(rule), rect.x_first, rect.x_last);
-  side(viewport.y, viewport.w, !owns_bottom(rule), rect.y_first, rect.y_last);
+  side(viewport.x, viewport.z, sample.x, !owns_right(rule), rect.x_first, rect.x_last);
+  side(viewport.y, viewport.w, sample.y, !owns_bottom(rule), rect.y_first, rect.y_last);
   return rect;
 }
 
@@ -50,7 +55,8 @@ WalkerConfig walker_config(const Config& config) {
           .block_size = config.block_walker.block_size,
           .trivial_reject = config.block_walker.trivial_reject,
           .trivial_accept = config.tile_walker.trivial_accept,
-          .sample_reject = config.block_walker.sample_reject};
+          .sample_reject = config.block_walker.sample_reject,
+          .samples = sample_pattern(config)};
 }
 
 DepthLimits depth_limits(const Command& draw, DepthFormat format) {
@@ -82,6 +88,33 @@ FillRule fill_rule(const Command& draw, const Config& config) {
   return draw.has(Flag::kBottomLeftRule) ? FillRule::kBottomLeft : FillRule::kTopLeft;
 }
 
+namespace {
+
+/// The pixels that a draw may touch: one rectangle for all samples.
+PixelRect draw_bounds(const Command& draw, const Target& target, FillRule rule, const Config& config) {
+  const PixelRect drawable = drawable_rect(draw.scissor, target);
+  const SamplePattern samples = sample_pattern(config);
+  // A sample on its pixel's top or left side belongs to the viewport that holds the pixel, whatever the rule.
+  const FillRule border = samples.is_centre() ? rule : FillRule::kTopLeft;
+  const auto of_sample = [&](const SamplePosition& sample) {
+    const PixelRect rect = intersect(drawable, viewport_rect(draw.viewport, border, sample));
+    return rect.empty() ? PixelRect{} : rect;
+  };
+  const PixelRect bounds = of_sample(samples.at[0]);
+  for (const SamplePosition& sample : samples.positions()) {
+    if (!(of_sample(sample) == bounds)) {
+      throw InputError(
+          fmt::format("a draw's viewport of {} x {} pixels at ({}, {}) cuts through the samples of a pixel, "
+                      "and raster.samples "
+                      "is {}; legal: viewports of whole pixels, or raster.samples = 1",
+                      draw.viewport.z, draw.viewport.w, draw.viewport.x, draw.viewport.y, samples.count));
+    }
+  }
+  return bounds;
+}
+
+}  // namespace
+
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
   const FillRule rule = fill_rule(draw, config);
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
@@ -89,11 +122,12 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
           .cull_front = draw.has(Flag::kCullFront),
           .cull_back = draw.has(Flag::kCullBack),
           .fill_rule = rule,
-          .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
+          .bounds = draw_bounds(draw, target, rule, config),
           .depth_format = format,
           .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator,
-          .hi_z = config.hi_z.enabled};
+          .hi_z = config.hi_z.enabled,
+          .samples = sample_pattern(config).box()};
 }
 
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
@@ -111,7 +145,8 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
                     .func = draw.depth_func,
                     .format = format,
                     .interpolator = config.depth.interpolator,
-                    .sub_pixel_bits = config.raster.sub_pixel_bits};
+                    .sub_pixel_bits = config.raster.sub_pixel_bits,
+                    .samples = sample_pattern(config)};
   state.late = state.write && mode == LateZ::kLate && touches_depth(state);
   return state;
 }
@@ -173,13 +208,15 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
                     .depth_format = format,
                     .limits = {.least = code, .most = code},
                     .interpolator = config.depth.interpolator,
-                    .hi_z = config.hi_z.enabled},
+                    .hi_z = config.hi_z.enabled,
+                    .samples = sample_pattern(config).box()},
           .early_z = {.test = true,
                       .write = true,
                       .func = DepthFunc::kAlways,
                       .format = format,
                       .interpolator = config.depth.interpolator,
-                      .sub_pixel_bits = config.raster.sub_pixel_bits}};
+                      .sub_pixel_bits = config.raster.sub_pixel_bits,
+                      .samples = sample_pattern(config)}};
 }
 
 }  // namespace halfspace

@@ -117,7 +117,8 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   if (command.has(Flag::kNotFilled)) {
     ++result_.draws_not_filled;
   } else {
-    front_end_.emplace(frame_, command, format, config_.raster.sub_pixel_bits);
+    front_end_.emplace(frame_, command, format, config_.raster.sub_pixel_bits,
+                       sample_pattern(config_).is_centre());
     triangle_count_ = command.index_count / 3;
     next_triangle_ = 0;
   }

@@ -1,9 +1,13 @@
 #include "halfspace/scene/front_end.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -25,11 +29,13 @@ double far_depth(const DepthRange& range) {
 
 }  // namespace
 
-FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits)
+FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
+                   bool centres)
     : frame_(frame),
       draw_(draw),
       format_(format),
       sub_pixel_bits_(sub_pixel_bits),
+      centres_(centres),
       sub_pixels_(1 << sub_pixel_bits),
       screen_({.x_last = static_cast<std::int32_t>(frame.targets[draw.target].width) - 1,
                .y_last = static_cast<std::int32_t>(frame.targets[draw.target].height) - 1}),
@@ -148,6 +154,13 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
     }
     const std::size_t before = out.size();
     if (std::ranges::any_of(z, is_far)) {
+      if (!centres_) {
+        throw InputError(
+            fmt::format("triangle {} of a draw of {} indices from {} has a vertex too far outside the depth "
+                        "range for a plane; "
+                        "legal for such draws: raster.samples = 1, at the pixel centre",
+                        index, draw_.index_count, draw_.first_index));
+      }
       emit_far(triangle, z, limits_, format_, grid, out);
       counters.emitted += out.size() - before;
       ++counters.far_depth;
@@ -161,7 +174,7 @@ void FrontEnd::emit(const std::array<Window, 3>& corner, double offset_unit, std
       for (double& depth : z) {
         depth = static_cast<float>(depth);
       }
-      if (may_be_tiny(z, limits_)) {
+      if (centres_ && may_be_tiny(z, limits_)) {
         counters.tiny_depth += emit_tiny(triangle, z, grid, out) ? 1 : 0;
         counters.emitted += out.size() - before;
         return;

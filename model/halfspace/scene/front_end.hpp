@@ -24,8 +24,10 @@ namespace halfspace {
 /// The front end of one draw.
 class FrontEnd {
  public:
-  /// `format` is that of the surface the draw tests against; none leaves z at 0.
-  FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits);
+  /// `format` is that of the surface the draw tests against; none leaves z at 0. `centres`: a pixel has one
+  /// sample, at its centre; else no depth is resolved sample by sample (depth_by_sample.hpp).
+  FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
+           bool centres = true);
 
   /// Window z is z / w * scale + bias, and lies between least and most.
   struct Depth {
@@ -37,7 +39,8 @@ class FrontEnd {
   [[nodiscard]] Depth depth() const { return {z_scale_, z_bias_, z_least_, z_most_}; }
   [[nodiscard]] bool clips_depth() const { return !depth_clamp_; }
 
-  /// Appends what triangle `index` of the draw becomes.
+  /// Appends what triangle `index` of the draw becomes. Throws InputError where a vertex is so far outside
+  /// the depth range that only its samples one by one have a depth, and they are not at the centres.
   void process(std::uint32_t index, std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
 
  private:
@@ -57,6 +60,7 @@ class FrontEnd {
   const Command& draw_;
   DepthFormat format_;
   int sub_pixel_bits_;
+  bool centres_;
   double sub_pixels_;
   PixelRect screen_;  ///< the target
   bool depth_clamp_;

@@ -62,8 +62,15 @@ std::string to_text(const Precision& precision) {
   for (const reference::TieRuleInfo& info : reference::kTieRules) {
     rule = info.rule == precision.rule ? info.name : rule;
   }
-  return fmt::format("{} sub-pixel bits, {}, fill rule {}", precision.sub_pixel_bits, name(precision.format),
-                     rule);
+  std::string samples;
+  if (!precision.samples.is_centre()) {
+    samples = fmt::format(", {} samples:", precision.samples.count);
+    for (const SamplePosition& each : precision.samples.positions()) {
+      samples += fmt::format(" {},{}", each.x, each.y);
+    }
+  }
+  return fmt::format("{} sub-pixel bits, {}, fill rule {}{}", precision.sub_pixel_bits,
+                     name(precision.format), rule, samples);
 }
 
 Case make_case(const Family& family, const Precision& precision, std::uint64_t seed, std::uint64_t index) {

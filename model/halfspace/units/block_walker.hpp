@@ -1,9 +1,10 @@
 /// block_walker: from a triangle to the blocks that it may touch, each with a mask of its tiles.
 ///
 /// It visits the blocks of the bounds in row order. In each it tests all tiles that the bounds touch at once,
-/// and leaves out those all of whose samples are outside one edge. Of a triangle whose bounds lie in one
-/// block and hold few samples it tests these instead, and leaves out the tiles in which none is covered: the
-/// tests of as many tiles do for it. A block that is left with no tile goes nowhere.
+/// and leaves out those that are outside one edge at every corner of the box of their samples. Of a triangle
+/// whose bounds lie in one block and hold few samples it tests these instead, and leaves out the tiles in
+/// which none is covered: the tests of as many tiles do for it. A block that is left with no tile goes
+/// nowhere.
 #pragma once
 
 #include <algorithm>
@@ -68,8 +69,12 @@ void block_walker(const SetupTriangle& triangle, const WalkerConfig& config, std
     origin[i] = triangle.edge[i].c;
   }
   const SquareEdges screen(origin, job.a, job.b, config.sub_pixel_bits);
-  const std::array<std::int64_t, 3> to_largest{screen.to_largest(0, TileSize), screen.to_largest(1, TileSize),
-                                               screen.to_largest(2, TileSize)};
+  const SampleBox box = config.samples.box();
+  std::array<std::int64_t, 3> to_largest{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    to_largest[i] =
+        screen.to_largest(i, TileSize) + to_largest_sample(job.a[i], job.b[i], box, config.sub_pixel_bits);
+  }
   for (int y = bounds.y_first / size * size; y <= bounds.y_last; y += size) {
     for (int x = bounds.x_first / size * size; x <= bounds.x_last; x += size) {
       const PixelRect inside{.x_first = std::max(bounds.x_first - x, 0),

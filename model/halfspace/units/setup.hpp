@@ -7,6 +7,7 @@
 
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/numerics/fill_rule.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -23,19 +24,22 @@ struct SetupState {
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
-  bool hi_z = false;  ///< make HiZPlane too, where the interpolator has a plane
+  bool hi_z = false;    ///< make HiZPlane too, where the interpolator has a plane
+  SampleBox samples{};  ///< of a pixel
 };
 
 enum class SetupVerdict : std::uint8_t {
   kDrawn,
   kZeroArea,
   kCulled,    ///< faces away
-  kNoSample,  ///< its bounding box holds no pixel centre
+  kNoSample,  ///< its bounding box holds no sample: no pixel has one whose box of samples it meets
   kOutside,   ///< its bounding box misses scissor, viewport or target
 };
 
-/// The pixels whose centres lie in the closed bounding box of the triangle.
-PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits);
+/// The pixels whose box of samples meets the closed bounding box of the triangle: of one sample at the
+/// centre, those whose centres lie in it. Every pixel with a covered sample is among them.
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits,
+                        const SampleBox& samples = {});
 
 /// Fills `out` when the verdict is kDrawn. Vertices must be inside the guard band (16 + sub_pixel_bits signed
 /// bits). Neither the order of the vertices nor which one comes first changes what is drawn or its depth.

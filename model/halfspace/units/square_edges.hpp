@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "halfspace/numerics/sample_pattern.hpp"
+
 namespace halfspace {
 
 /// How the walk over blocks and tiles is done. Every choice gives the same coverage.
@@ -19,9 +21,10 @@ struct WalkerConfig {
   bool trivial_reject = true;
   bool trivial_accept = true;
   bool sample_reject = false;
+  SamplePattern samples{};
 };
 
-/// Edges by the pixel.
+/// Edges by the pixel, at one place of each: "the sample" of a square of pixels.
 struct SquareEdges {
   std::array<std::int64_t, 3> e{};   ///< at the top left sample
   std::array<std::int64_t, 3> dx{};  ///< change for one pixel
@@ -49,5 +52,19 @@ struct SquareEdges {
     return (std::min<std::int64_t>(dx[i], 0) + std::min<std::int64_t>(dy[i], 0)) * (size - 1);
   }
 };
+
+/// What E changes by from the centre of a pixel to its sample.
+constexpr std::int64_t to_sample(std::int32_t a, std::int32_t b, const SamplePosition& sample,
+                                 int sub_pixel_bits) {
+  return std::int64_t{a} * sample_way(sample.x - kSampleGrid / 2, sub_pixel_bits) +
+         std::int64_t{b} * sample_way(sample.y - kSampleGrid / 2, sub_pixel_bits);
+}
+
+/// To the corner of the box of the samples where E is largest: at no sample is it larger.
+constexpr std::int64_t to_largest_sample(std::int32_t a, std::int32_t b, const SampleBox& box,
+                                         int sub_pixel_bits) {
+  const SamplePosition corner{.x = a > 0 ? box.x_most : box.x_least, .y = b > 0 ? box.y_most : box.y_least};
+  return to_sample(a, b, corner, sub_pixel_bits);
+}
 
 }  // namespace halfspace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/packets.hpp"
@@ -26,6 +27,7 @@ struct EarlyZState {
   DepthFormat format = DepthFormat::kNone;
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
   int sub_pixel_bits = 8;
+  SamplePattern samples{};
 };
 
 /// True where a burst has to do with stored depth.
