@@ -14,7 +14,7 @@ word = origin + x * step_x + y * step_y;
 
 exact = z + gx * (nx + x * S) + gy * (ny + y * S);
 
-{ x in [0,15] /\ y in [0,15] /\ |nx + x * S| <= 12582528 /\ |ny + y * S| <= 12582528 # plane_steps.g
+{ x in [0,15] /\ y in [0,15] /\ |nx + x * S| <= 12582640 /\ |ny + y * S| <= 12582640 # plane_steps.g
   -> |word - exact| <= 21.5 }
 
 word - exact ->

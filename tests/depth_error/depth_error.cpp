@@ -141,8 +141,9 @@ class Measurement {
         const int y = y0 + bit / kTile;
         const ExactPlane::Error error = plane.error(std::int64_t{x} * 256 + 128, std::int64_t{y} * 256 + 128,
                                                     codes[static_cast<std::size_t>(bit)]);
-        const double share =
-            error.ulps / stress::depth_bound(method_.format, method_.interpolator, sample.z, plane, error);
+        const double share = error.ulps / stress::depth_bound({.sub_pixel_bits = state_.sub_pixel_bits,
+                                                               .format = method_.format},
+                                                              method_.interpolator, sample.z, plane, error);
         ++worst.samples;
         worst.ulps = std::max(worst.ulps, error.ulps);
         if (share > worst.share) {

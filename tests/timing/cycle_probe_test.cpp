@@ -172,7 +172,7 @@ void read_in_parts(const StreamView& stream, StreamReader& reader, Random& rando
 TEST_CASE("statistics of random packets are those of a scalar probe", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 150; ++run) {
-    const Config config = random_config(random);
+    const Config config = random_sampled_config(random);
     const StallPlan stalls = random_stalls(random);
     const FrameRecord record = random_record(random, config);
     const ZTrace trace = trace_lines(record, z_cache_shape(config));

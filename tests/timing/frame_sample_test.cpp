@@ -78,7 +78,7 @@ TEST_CASE("stretches of a record lie one behind the other, and have its counts",
   Random random(seed());
   for (int run = 0; run < 40; ++run) {
     CAPTURE(seed(), run);
-    const FrameRecord record = record_frame(random_frame(random), random_config(random));
+    const FrameRecord record = record_frame(random_frame(random), random_sampled_config(random));
     const PacketStream& packets = record.packets;
     const auto work = static_cast<std::uint64_t>(random.between(1, 60));
     const std::vector<Stretch> stretches = cut(record, work);
@@ -102,7 +102,7 @@ TEST_CASE("copies of all stretches are the record, in more draws", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 40; ++run) {
     CAPTURE(seed(), run);
-    const FrameRecord record = record_frame(random_frame(random), random_config(random));
+    const FrameRecord record = record_frame(random_frame(random), random_sampled_config(random));
     const std::vector<Stretch> stretches = cut(record, static_cast<std::uint64_t>(random.between(1, 60)));
     const StretchCopy copied = copy(record, stretches, std::vector<bool>(stretches.size(), true));
     CHECK(words(copied.packets.blocks) == words(record.packets.blocks));
@@ -118,7 +118,7 @@ TEST_CASE("the copy of a stretch has its counts", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 20; ++run) {
     CAPTURE(seed(), run);
-    const FrameRecord record = record_frame(random_frame(random), random_config(random));
+    const FrameRecord record = record_frame(random_frame(random), random_sampled_config(random));
     const std::vector<Stretch> stretches = cut(record, static_cast<std::uint64_t>(random.between(1, 60)));
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       std::vector<bool> wanted(stretches.size());
@@ -175,7 +175,7 @@ TEST_CASE("a short record is timed whole", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 10; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     Retimer retimer(record_frame(random_frame(random), recorded));
     std::vector<Config> machines;
     for (int i = 0; i < 5; ++i) {

@@ -125,11 +125,41 @@ inline Config random_config(Random& random) {
   return config;
 }
 
+/// 1 to 16 samples a pixel, every other time at positions of their own; `config` loses what does not know of
+/// samples.
+inline void draw_samples(Random& random, Config& config) {
+  const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
+  config.raster.samples = pick(random, {1, 2, 4, 8, row_tiles == 8 ? 8 : 16});
+  if (random.between(0, 1) == 0) {
+    SamplePattern positions{.count = config.raster.samples};
+    for (SamplePosition& each : positions.at) {
+      each = {.x = static_cast<std::uint8_t>(random.between(0, 15)),
+              .y = static_cast<std::uint8_t>(random.between(0, 15))};
+    }
+    config.raster.sample_positions = positions;
+  }
+  if (!sample_pattern(config).is_centre()) {
+    config.raster.conservative = Conservative::kOff;
+    config.hi_z.enabled = false;
+    config.block_walker.sample_reject = false;
+    config.late_z.mode = config.late_z.mode == LateZ::kLate ? LateZ::kOpaque : config.late_z.mode;
+  }
+}
+
+/// The same, one time of two with several samples a pixel.
+inline Config random_sampled_config(Random& random) {
+  Config config = random_config(random);
+  if (random.between(0, 1) == 0) {
+    draw_samples(random, config);
+  }
+  return config;
+}
+
 /// A random machine for the packets of `recorded`.
 inline Config random_timing(Random& random, const Config& recorded) {
   while (true) {
     Config config = random_config(random);
-    config.raster.sub_pixel_bits = recorded.raster.sub_pixel_bits;
+    config.raster = recorded.raster;
     config.tile_walker.tile_size = recorded.tile_walker.tile_size;
     config.block_walker.block_size = recorded.block_walker.block_size;
     config.block_walker.trivial_reject = recorded.block_walker.trivial_reject;
@@ -143,8 +173,6 @@ inline Config random_timing(Random& random, const Config& recorded) {
     config.hi_z.bits = recorded.hi_z.bits;
     config.hi_z.lag = recorded.hi_z.lag;
     config.setup.fill_rule = recorded.setup.fill_rule;
-    config.raster.conservative = recorded.raster.conservative;
-    config.raster.uncertainty = recorded.raster.uncertainty;
     config.depth.interpolator = recorded.depth.interpolator;
     config.late_z.mode = recorded.late_z.mode;
     config.late_z.discard = recorded.late_z.discard;

@@ -31,7 +31,7 @@ inline FrameRecord random_record(Random& random, const Config& config) {
   record.surfaces.push_back({.tiles_x = 16, .tiles = 256, .sample_bytes = pick(random, {2u, 4u})});
   const int most_quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
   const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
-  const int most_jobs = row_tiles * row_tiles;
+  const int most_jobs = row_tiles * row_tiles * config.raster.samples;
   const std::uint32_t most_empty = pick(random, {0u, 3u, 40u, 500u});
   const auto count = [&](std::uint32_t few, std::uint32_t many) {
     return static_cast<std::uint32_t>(random.between(0, random.between(0, 3) == 0 ? many : few));

@@ -94,7 +94,7 @@ TEST_CASE("lanes of every processor say what one machine says, on random packets
   Random random(seed());
   for (int run = 0; run < 40; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     CAPTURE(difference_from_default(recorded));
     Retimer retimer(random_record(random, recorded));
     const auto count = static_cast<std::size_t>(random.between(1, 100));
@@ -106,7 +106,7 @@ TEST_CASE("lanes of every processor say what a full run says, on random frames",
   Random random(seed());
   for (int run = 0; run < 15; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     const Frame frame = random_frame(random);
     Retimer retimer(record_frame(frame, recorded));
     const std::vector<Config> machines = random_machines(random, recorded, 40);
@@ -122,7 +122,7 @@ TEST_CASE("a table of few rows says what one of all lines of memory says", "[tim
   Random random(seed());
   for (int run = 0; run < 60; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     Retimer retimer(random_record(random, recorded));
     for (const Config& config : random_machines(random, recorded, 20)) {
       CAPTURE(difference_from_default(config));
@@ -231,7 +231,7 @@ TEST_CASE("no burst takes longer than the bound that lanes of 16 bits rely on", 
   Random random(seed());
   for (int run = 0; run < 200; ++run) {
     CAPTURE(seed(), run);
-    const Config config = random_config(random);
+    const Config config = random_sampled_config(random);
     CAPTURE(difference_from_default(config));
     FrameRecord record = random_record(random, config);
     record.packets.segments.clear();

@@ -43,7 +43,7 @@ TEST_CASE("re-timing equals a full run on random machines, one by one and in a b
   Random random(seed());
   for (int run = 0; run < 60; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     const Frame frame = random_frame(random);
     CAPTURE(difference_from_default(recorded));
     Retimer retimer(record_frame(frame, recorded));
@@ -126,6 +126,8 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"raster.sub_pixel_bits", "7"},
                                                          {"raster.conservative", "outer"},
                                                          {"raster.uncertainty", "2"},
+                                                         {"raster.samples", "2"},
+                                                         {"raster.sample_positions", "4,4"},
                                                          {"setup.fill_rule", "top_right"},
                                                          {"block_walker.block_size", "16"},
                                                          {"block_walker.trivial_reject", "false"},
@@ -174,7 +176,7 @@ TEST_CASE("a record comes back from its file", "[timing]") {
   const TemporaryFile file;
   for (int run = 0; run < 20; ++run) {
     CAPTURE(seed(), run);
-    const Config config = random_config(random);
+    const Config config = random_sampled_config(random);
     FrameRecord record = record_frame(random_frame(random), config);
     write_record(file.path, record);
     const FrameRecord back = read_record(file.path);

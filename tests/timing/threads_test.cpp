@@ -109,7 +109,7 @@ TEST_CASE("threads: a timed run gives the same, on both cores", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 60; ++run) {
     CAPTURE(seed(), run);
-    const Config config = random_config(random);
+    const Config config = random_sampled_config(random);
     const Frame frame = long_or_short_frame(random);
     INFO(difference_from_default(config));
     EngineOptions options;
@@ -150,7 +150,7 @@ TEST_CASE("threads: a record is the same, from both cores", "[timing]") {
   Random random(seed());
   for (int run = 0; run < 30; ++run) {
     CAPTURE(seed(), run);
-    const Config config = random_config(random);
+    const Config config = random_sampled_config(random);
     const Frame frame = long_or_short_frame(random);
     for (const Core core : {Core::kAuto, Core::kReadable}) {
       const FrameRecord one = record_frame(frame, config, {.core = core});
@@ -164,7 +164,7 @@ TEST_CASE("threads: a batch of machines is timed the same, exactly and by a samp
   Random random(seed());
   for (int run = 0; run < 12; ++run) {
     CAPTURE(seed(), run);
-    const Config recorded = random_config(random);
+    const Config recorded = random_sampled_config(random);
     const FrameRecord record =
         record_frame(run % 3 == 0 ? synthetic_frame("medium") : long_or_short_frame(random), recorded);
     const auto count = static_cast<std::size_t>(random.between(1, 150));

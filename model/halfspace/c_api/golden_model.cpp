@@ -53,6 +53,12 @@ ChainContext& GoldenModel::context() {
   if (config_.raster.conservative != Conservative::kOff) {
     throw InputError("configuration key 'raster.conservative' is on; legal for the golden model: off");
   }
+  if (!sample_pattern(config_).is_centre()) {
+    throw InputError(
+        fmt::format("configuration key 'raster.samples' is {}; legal in the golden model: 1, at the "
+                    "pixel centre",
+                    config_.raster.samples));
+  }
   auto context = std::make_unique<ChainContext>();
   context->widths = widths(config_);
   context->interpolator = config_.depth.interpolator;

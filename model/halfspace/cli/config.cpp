@@ -62,7 +62,7 @@ void add_config_command(CLI::App& app, ExitStatus& /*status*/) {
       fmt::print("{}", to_markdown());
       return;
     }
-    const Config config = machine->config();
+    const Config config = machine->config(Samples::kAny);
     if (*rtl) {
       fmt::print("{}\n", fmt::join(rtl::pipeline_arguments(config), "\n"));
       return;

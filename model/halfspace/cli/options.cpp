@@ -117,12 +117,24 @@ void MachineOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-Config MachineOptions::config() const {
+void require_centre(const Config& config, std::string_view what) {
+  if (!sample_pattern(config).is_centre()) {
+    throw OptionError(
+        fmt::format("configuration key 'raster.samples' is {}, and a pixel has several samples or "
+                    "one that is not at its centre; legal with {}: 1, at the centre",
+                    config.raster.samples, what));
+  }
+}
+
+Config MachineOptions::config(Samples taken) const {
   Config config = file.empty() ? Config{} : read_config(file);
   for (const std::string& setting : settings) {
     set_config(config, setting);
   }
   check_config(config, file, !settings.empty());
+  if (taken == Samples::kCentre) {
+    require_centre(config, "this command");
+  }
   return config;
 }
 

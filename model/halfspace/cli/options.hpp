@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "halfspace/cli/draw_options.hpp"
@@ -24,13 +25,19 @@ namespace halfspace {
 /// alone is wrong, OptionError where a setting has a part in it.
 void check_config(const Config& config, const std::string& file, bool changed);
 
+/// Which samples of a pixel a command takes.
+enum class Samples : std::uint8_t { kCentre, kAny };
+
+/// Throws OptionError unless a pixel has one sample, at its centre, which is all that `what` takes.
+void require_centre(const Config& config, std::string_view what);
+
 /// --config and --set.
 struct MachineOptions {
   std::string file;
   std::vector<std::string> settings;
 
   void add_to(CLI::App& command);
-  [[nodiscard]] Config config() const;  ///< throws InputError
+  [[nodiscard]] Config config(Samples taken = Samples::kCentre) const;  ///< throws InputError
 };
 
 /// --core.

@@ -30,7 +30,7 @@ class RecordObserver final : public PacketObserver {
 };
 
 void record(const RecordOptions& options) {
-  const Config config = options.machine.config();
+  const Config config = options.machine.config(Samples::kAny);
   const Frame frame = whatif::apply(options.input.frames(), options.what_if.what_if()).frame;
   RecordObserver observer(frame.name);
   const FrameRecord record = record_frame(

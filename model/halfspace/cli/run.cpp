@@ -91,6 +91,13 @@ Interpolation interpolation_of(const RunCommand& command, const Frame& frame) {
   return std::ranges::find(kInterpolations, command.interpolation, &InterpolationName::name)->value;
 }
 
+/// Throws OptionError where a mesh would be shaded at other samples than the centres.
+void check_shading(const RunCommand& command, const Frame& frame, const Config& config) {
+  if (frame.attributes != nullptr && command.wants_pictures()) {
+    require_centre(config, "the shaded picture of a mesh (--no-pictures leaves it out)");
+  }
+}
+
 /// Refuses options that the fidelity does not support.
 void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, options.core.core() != Core::kAuto, "--core", &FidelityInfo::core);
@@ -170,6 +177,8 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
 ExitStatus run_command(const RunCommand& command) {
   if (!command.reference.empty()) {
     check_reference(command);
+    const Config config = command.machine.config(Samples::kAny);
+    require_centre(config, "--reference");
     Frame frame = whatif::join(command.input.frames(command.content()));
     const Interpolation interpolation = interpolation_of(command, frame);
     run_reference({.method = command.reference,
@@ -177,7 +186,7 @@ ExitStatus run_command(const RunCommand& command) {
                    .quads = command.quads,
                    .pictures = !command.no_pictures,
                    .interpolation = interpolation},
-                  std::move(frame), command.machine.config());
+                  std::move(frame), config);
     return ExitStatus::kDone;
   }
   const Fidelity fidelity = fidelity_of(command.fidelity);
@@ -188,14 +197,19 @@ ExitStatus run_command(const RunCommand& command) {
   options.vcd = command.vcd;
   command.rtl.apply(options);
   const TimelineChoice choice = command.timeline.choice();
-  const Config config = command.machine.config();
+  const Config config = command.machine.config(Samples::kAny);
+  if (!command.tile_jobs.empty()) {
+    require_centre(config, "--tile-jobs");
+  }
   const whatif::WhatIf what_if = command.what_if.what_if();
   std::vector<Frame> frames = command.input.frames(command.content());
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
   const Interpolation interpolation = interpolation_of(command, frame);
+  check_shading(command, frame, config);
   std::optional<OutputFolder> folder;
   Recorder::Options record;
+  record.samples = config.raster.samples;
   if (!command.out.empty()) {
     folder.emplace(command.out);
     if (command.quads) {

@@ -72,7 +72,8 @@ stress::Precision precision_of(const StressCommand& command, const Config& confi
           .format = format_of(command.depth),
           .rule = tie_rule(config).value_or(reference::TieRule::kTopLeft),
           .conservative = config.raster.conservative,
-          .uncertainty = config.raster.uncertainty};
+          .uncertainty = config.raster.uncertainty,
+          .samples = sample_pattern(config)};
 }
 
 stress::CampaignPlan plan_of(const StressCommand& command, const Config& config) {
@@ -168,6 +169,19 @@ ExitStatus exhaustive_command(const StressCommand& command, Fidelity fidelity, c
   return status_of(tally.errors() == 0);
 }
 
+/// Only the families know of several samples a pixel, and only this machine has them.
+void check_samples(const StressCommand& command, const Config& config) {
+  for (const auto& [given, name] : {std::pair{command.reports, "--reports"},
+                                    {command.sharpness, "--sharpness"},
+                                    {command.exhaustive, "--exhaustive"},
+                                    {command.units, "--exhaustive-units"},
+                                    {!command.engine.empty(), "--engine"}}) {
+    if (given) {
+      require_centre(config, name);
+    }
+  }
+}
+
 ExitStatus stress_command(const StressCommand& command) {
   if (command.every != 1 && !command.exhaustive && !command.units) {
     throw OptionError(
@@ -179,7 +193,7 @@ ExitStatus stress_command(const StressCommand& command) {
   RunOptions options;
   command.rtl.apply(options);
   options.watch.core = command.core.core();
-  const Config config = command.machine.config();
+  const Config config = command.machine.config(Samples::kAny);
   if (config.raster.conservative != Conservative::kOff &&
       (command.exhaustive || command.units || command.sharpness || command.reports ||
        command.engine.starts_with("reference:") || command.engine.starts_with("wrong:"))) {
@@ -187,6 +201,7 @@ ExitStatus stress_command(const StressCommand& command) {
         "raster.conservative is on; legal off: with --exhaustive, --exhaustive-units, --sharpness, --reports "
         "and engines reference:NAME and wrong:NAME, which are of pixel centres");
   }
+  check_samples(command, config);
   if (command.exhaustive || command.units) {
     return exhaustive_command(command, fidelity, config, options);
   }

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "halfspace/config/did_you_mean.hpp"
 #include "halfspace/numerics/error.hpp"
@@ -17,10 +19,13 @@
 namespace halfspace {
 namespace {
 
-/// What a key may be. Every value is an integer here: a boolean is 0 or 1, a named one its place in `words`,
-/// a share is in parts of kWholeShare.
+/// A value of a key: a boolean is 0 or 1, a named one its place in `words`, a share is in parts of
+/// kWholeShare.
+using Value = std::variant<int, SamplePattern>;
+
+/// What a key may be.
 struct Legal {
-  enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kShare, kOneOf } kind;
+  enum class Kind : std::uint8_t { kRange, kPowerOfTwo, kBoolean, kShare, kOneOf, kSampleList } kind;
   int least = 0;
   int most = 0;
   std::vector<std::string> words;  ///< as they are written; empty for integers
@@ -30,6 +35,7 @@ struct Legal {
 Legal range(int least, int most) { return {Legal::Kind::kRange, least, most, {}}; }
 Legal power_of_two(int least, int most) { return {Legal::Kind::kPowerOfTwo, least, most, {}}; }
 Legal share() { return {Legal::Kind::kShare, 0, kWholeShare, {}}; }
+Legal sample_list() { return {Legal::Kind::kSampleList, 0, kSampleGrid - 1, {}}; }
 Legal boolean() { return {Legal::Kind::kBoolean, 0, 1, {"false", "true"}}; }
 Legal one_of(auto... names) {
   return {Legal::Kind::kOneOf, 0, static_cast<int>(sizeof...(names)) - 1, {names...}};
@@ -43,17 +49,35 @@ struct Key {
   Changes changes;
   std::string help;
   std::string rtl;
-  int (*get)(const Config& config);
-  void (*set)(Config& config, int value);
+  Value (*get)(const Config& config);
+  void (*set)(Config& config, const Value& value);
 };
+
+/// A member of Config as a value, and back.
+template <class Member>
+Value to_value(const Member& member) {
+  if constexpr (std::is_same_v<Member, SamplePattern>) {
+    return member;
+  } else {
+    return static_cast<int>(member);
+  }
+}
+template <class Member>
+Member of_value(const Value& value) {
+  if constexpr (std::is_same_v<Member, SamplePattern>) {
+    return std::get<SamplePattern>(value);
+  } else {
+    return static_cast<Member>(std::get<int>(value));
+  }
+}
 
 const std::vector<Key>& keys() {
   // clang-format off
 #define NOTHING(...)
 #define ROW(section, name, type, legal, unit, changes, help, rtl)                         \
   Key{#section #name, legal, unit, Changes::changes, help, rtl,                           \
-      [](const Config& config) { return static_cast<int>(config.section name); },         \
-      [](Config& config, int value) { config.section name = static_cast<type>(value); }},
+      [](const Config& config) { return to_value(config.section name); },                 \
+      [](Config& config, const Value& value) { config.section name = of_value<type>(value); }},
 #define KEY(section, name, type, value, legal, unit, changes, help) \
   ROW(section, name, type, legal, unit, changes, help, "")
 #define MODULE(section, name, type, value, legal, unit, changes, help, Parameter) \
@@ -85,6 +109,8 @@ std::string legal_text(const Legal& legal) {
       return "true, false";
     case Legal::Kind::kShare:
       return "0 to 1";
+    case Legal::Kind::kSampleList:
+      return fmt::format("standard, or x,y;x,y;... with each 0 to {}", legal.most);
     case Legal::Kind::kOneOf:
       break;
   }
@@ -109,8 +135,55 @@ std::string share_text(int value) {
   return text;
 }
 
+constexpr std::string_view kStandardWord = "standard";
+
+std::string sample_list_text(const SamplePattern& samples) {
+  std::string text;
+  for (const SamplePosition& each : samples.positions()) {
+    text += fmt::format("{}{},{}", text.empty() ? "" : ";", each.x, each.y);
+  }
+  return samples == kStandardSamples ? std::string(kStandardWord) : text;
+}
+
+/// All of `text` as an integer; none where it is not one.
+std::optional<int> parse_integer(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+/// "12,12;4,4", or "standard".
+std::optional<SamplePattern> parse_sample_list(std::string_view text) {
+  SamplePattern samples = kStandardSamples;
+  if (text == kStandardWord) {
+    return samples;
+  }
+  const auto coordinate = [](std::string_view digits) {
+    const std::optional<int> value = parse_integer(digits);
+    return value && *value >= 0 && *value < kSampleGrid ? value : std::nullopt;
+  };
+  for (bool more = true; more;) {
+    const std::string_view position = text.substr(0, text.find(';'));
+    const std::size_t comma = std::min(position.find(','), position.size());
+    const std::optional<int> x = coordinate(position.substr(0, comma));
+    const std::optional<int> y = coordinate(position.substr(std::min(comma + 1, position.size())));
+    if (!x || !y || samples.count == kMostSamples) {
+      return std::nullopt;
+    }
+    samples.at[static_cast<std::size_t>(samples.count++)] = {static_cast<std::uint8_t>(*x),
+                                                             static_cast<std::uint8_t>(*y)};
+    more = position.size() < text.size();
+    text.remove_prefix(std::min(position.size() + 1, text.size()));
+  }
+  return samples;
+}
+
 std::string value_text(const Key& key, const Config& config) {
-  const int value = key.get(config);
+  const Value held = key.get(config);
+  if (const auto* const samples = std::get_if<SamplePattern>(&held)) {
+    return sample_list_text(*samples);
+  }
+  const int value = std::get<int>(held);
   if (key.legal.kind == Legal::Kind::kShare) {
     return share_text(value);
   }
@@ -118,22 +191,23 @@ std::string value_text(const Key& key, const Config& config) {
 }
 
 /// The value that `text` says; none where it is not legal.
-std::optional<int> parse_value(const Legal& legal, std::string_view text) {
+std::optional<Value> parse_value(const Legal& legal, std::string_view text) {
   if (!legal.words.empty()) {
     const auto found = std::ranges::find(legal.words, text);
     return found == legal.words.end() ? std::nullopt
-                                      : std::optional(static_cast<int>(found - legal.words.begin()));
+                                      : std::optional<Value>(static_cast<int>(found - legal.words.begin()));
   }
   if (legal.kind == Legal::Kind::kShare) {
     return parse_share(text);
   }
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool in_range =
-      error == std::errc{} && end == text.data() + text.size() && value >= legal.least && value <= legal.most;
+  if (legal.kind == Legal::Kind::kSampleList) {
+    return parse_sample_list(text);
+  }
+  const std::optional<int> value = parse_integer(text);
+  const bool in_range = value && *value >= legal.least && *value <= legal.most;
   const bool legal_value = in_range && (legal.kind != Legal::Kind::kPowerOfTwo ||
-                                        std::has_single_bit(static_cast<unsigned>(value)));
-  return legal_value ? std::optional(value) : std::nullopt;
+                                        std::has_single_bit(static_cast<unsigned>(*value)));
+  return legal_value ? std::optional<Value>(*value) : std::nullopt;
 }
 
 /// Keys, or whole sections, that had another name, and the one they have now.
@@ -230,6 +304,11 @@ Widths widths(const Config& config) {
   // clang-format on
 }
 
+SamplePattern sample_pattern(const Config& config) {
+  const SamplePattern& listed = config.raster.sample_positions;
+  return listed == kStandardSamples ? standard_samples(config.raster.samples) : listed;
+}
+
 bool same_packets(const Config& a, const Config& b) {
   return std::ranges::all_of(
       keys(), [&](const Key& key) { return key.changes == Changes::time || key.get(a) == key.get(b); });
@@ -246,7 +325,7 @@ std::vector<ConfigKey> config_keys(const Config& config) {
 
 void set_config(Config& config, std::string_view key, std::string_view value) {
   const Key& found = find_key(key);
-  const std::optional<int> parsed = parse_value(found.legal, value);
+  const std::optional<Value> parsed = parse_value(found.legal, value);
   if (!parsed) {
     throw OptionError(fmt::format("configuration key '{}' is '{}'{}; legal: {}", key, value,
                                   did_you_mean(value, found.legal.words), legal_text(found.legal)));
@@ -296,6 +375,41 @@ void validate_walk(const Config& config) {
          "raster where 'hi_z.enabled' is true");
 }
 
+/// What does not know of samples yet, or of one that is not at the centre of its pixel.
+void validate_samples(const Config& config) {
+  const int samples = config.raster.samples;
+  const SamplePattern& listed = config.raster.sample_positions;
+  if (listed != kStandardSamples && listed.count != samples) {
+    throw OptionError(
+        fmt::format("configuration key 'raster.sample_positions' has {} positions; legal: as many as "
+                    "'raster.samples' ({}), or standard",
+                    listed.count, samples));
+  }
+  const int row_tiles = config.block_walker.block_size / config.tile_walker.tile_size;
+  const int most = row_tiles == 8 ? kMostSamples / 2 : kMostSamples;
+  if (samples > most) {
+    throw OptionError(
+        fmt::format("configuration key 'raster.samples' is {}; legal: at most {} where a block has {} tiles",
+                    samples, most, row_tiles * row_tiles));
+  }
+  if (sample_pattern(config).is_centre()) {
+    return;
+  }
+  const auto refuse = [](bool is_set, const char* key, const char* value, const char* legal) {
+    if (is_set) {
+      throw OptionError(
+          fmt::format("configuration key '{}' is {}; legal: {} where a pixel has several "
+                      "samples, or one that is not at its centre ('raster.samples')",
+                      key, value, legal));
+    }
+  };
+  refuse(config.hi_z.enabled, "hi_z.enabled", "true", "false");
+  refuse(config.block_walker.sample_reject, "block_walker.sample_reject", "true", "false");
+  refuse(config.late_z.mode == LateZ::kLate, "late_z.mode", "late", "opaque, no_write");
+  refuse(config.raster.conservative != Conservative::kOff, "raster.conservative",
+         config.raster.conservative == Conservative::kOuter ? "outer" : "inner", "off");
+}
+
 }  // namespace
 
 void validate(const Config& config) {
@@ -341,6 +455,7 @@ void validate(const Config& config) {
          config.z_cache.misses_in_flight, one_a_part);
   demand(config.z_cache.write_buffers >= config.z_cache.parts, "z_cache.write_buffers",
          config.z_cache.write_buffers, one_a_part);
+  validate_samples(config);
 }
 
 std::string to_toml(const Config& config) {
@@ -354,10 +469,12 @@ std::string to_toml(const Config& config) {
       section = in;
     }
     const std::string value = value_text(key, config);
+    const bool in_quotes =
+        key.legal.kind == Legal::Kind::kOneOf || key.legal.kind == Legal::Kind::kSampleList;
     text += fmt::format("# {}{} ({})\n", key.help, key.unit.empty() ? "" : ", in " + key.unit,
                         legal_text(key.legal));
     text += fmt::format("{} = {}\n", dot == std::string::npos ? key.name : key.name.substr(dot + 1),
-                        key.legal.kind == Legal::Kind::kOneOf ? '"' + value + '"' : value);
+                        in_quotes ? '"' + value + '"' : value);
   }
   return text;
 }

@@ -9,6 +9,7 @@
 
 #include "halfspace/config/keys.hpp"
 #include "halfspace/numerics/conservative.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/walk_order.hpp"
@@ -51,6 +52,9 @@ struct Config {
 
 /// The widths of the packets of this machine.
 [[nodiscard]] Widths widths(const Config& config);
+
+/// The samples of a pixel of this machine.
+[[nodiscard]] SamplePattern sample_pattern(const Config& config);
 
 /// One key as a user sees it.
 struct ConfigKey {

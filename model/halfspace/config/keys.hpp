@@ -18,8 +18,8 @@
 ///
 /// section  with its dot, as the member is reached: `config.section.name`; empty outside all sections
 /// legal    range(least, most), power_of_two(least, most), boolean(), share(), a number from 0 to 1 that is kept
-///          in 2^16ths, or one_of(names), whose place in the list is the value of the enumeration; what depends
-///          on other keys is in validate()
+///          in 2^16ths, one_of(names), whose place in the list is the value of the enumeration, or
+///          sample_list(), a SamplePattern; what depends on other keys is in validate()
 /// unit     empty where there is none
 /// changes  function: may change packets; time: only the cycles in which they move
 ///
@@ -34,6 +34,11 @@
         "inner = that it fills")                                                                             \
     KEY(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                                 \
         "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel") \
+    KEY(raster., samples, int, 1, power_of_two(1, 16), "", function,                                         \
+        "of a pixel, each with coverage and depth of its own")                                               \
+    KEY(raster., sample_positions, SamplePattern, kStandardSamples, sample_list(), "", function,             \
+        "where they are: standard = the standard positions of Direct3D and Vulkan; or a list in 16ths of a " \
+        "pixel from its top left corner, as in \"12,12;4,4\"")                                               \
   END(raster)                                                                                                \
   BEGIN(setup)                                                                                               \
     MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \

@@ -102,6 +102,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
     return config.raster.conservative == Conservative::kOuter ? "raster.conservative = outer"
                                                               : "raster.conservative = inner";
   }
+  if (!sample_pattern(config).is_centre()) {
+    return "raster.samples, or a sample that is not at the centre of its pixel";
+  }
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }

@@ -1,8 +1,12 @@
 #include "halfspace/machine/draw_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -26,13 +30,14 @@ PixelRect drawable_rect(const Scissor& scissor, const Target& target) {
           .y_last = last(scissor.y, scissor.height, target.height)};
 }
 
-PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
-  // Sums of two floats whose centre is wanted: exact in double wherever a target can be.
-  const auto side = [](double position, double extent, bool low_is_in, std::int32_t& first,
+PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule, const SamplePosition& sample) {
+  // Sums of two floats less a sample's way: exact in double wherever a target can be.
+  const auto side = [](double position, double extent, int way, bool low_is_in, std::int32_t& first,
                        std::int32_t& last) {
-    const double low = std::min(position, position + extent) - 0.5;
-    const double high = std::max(position, position + extent) - 0.5;
-    // A centre on the border belongs to the side that the tie rule gives it to, as a clipped edge would.
+    const double in_pixel = static_cast<double>(way) / kSampleGrid;
+    const double low = std::min(position, position + extent) - in_pixel;
+    const double high = std::max(position, position + extent) - in_pixel;
+    // A sample on the border belongs to the side that the tie rule gives it to, as a clipped edge would.
     const auto pixel = [](double value) {
       return static_cast<std::int32_t>(std::clamp(value, -1.0, 65536.0));
     };
@@ -40,8 +45,8 @@ PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule) {
     last = pixel(low_is_in ? std::ceil(high) - 1 : std::floor(high));
   };
   PixelRect rect;
-  side(viewport.x, viewport.z, !owns_right(rule), rect.x_first, rect.x_last);
-  side(viewport.y, viewport.w, !owns_bottom(rule), rect.y_first, rect.y_last);
+  side(viewport.x, viewport.z, sample.x, !owns_right(rule), rect.x_first, rect.x_last);
+  side(viewport.y, viewport.w, sample.y, !owns_bottom(rule), rect.y_first, rect.y_last);
   return rect;
 }
 
@@ -61,7 +66,8 @@ WalkerConfig walker_config(const Config& config) {
           .sample_reject = config.block_walker.sample_reject,
           .levels = config.block_walker.levels,
           .order = config.block_walker.order,
-          .tile_order = config.tile_walker.order};
+          .tile_order = config.tile_walker.order,
+          .samples = sample_pattern(config)};
 }
 
 DepthLimits depth_limits(const Command& draw, DepthFormat format) {
@@ -93,7 +99,45 @@ FillRule fill_rule(const Command& draw, const Config& config) {
   return draw.has(Flag::kBottomLeftRule) ? FillRule::kBottomLeft : FillRule::kTopLeft;
 }
 
+namespace {
+
+/// The pixels that a draw may touch: one rectangle for all samples.
+PixelRect draw_bounds(const Command& draw, const Target& target, FillRule rule, const Config& config) {
+  const PixelRect drawable = drawable_rect(draw.scissor, target);
+  const SamplePattern samples = sample_pattern(config);
+  // A sample on its pixel's top or left side belongs to the viewport that holds the pixel, whatever the rule.
+  const FillRule border = samples.is_centre() ? rule : FillRule::kTopLeft;
+  const auto of_sample = [&](const SamplePosition& sample) {
+    const PixelRect rect = intersect(drawable, viewport_rect(draw.viewport, border, sample));
+    return rect.empty() ? PixelRect{} : rect;
+  };
+  const PixelRect bounds = of_sample(samples.at[0]);
+  for (const SamplePosition& sample : samples.positions()) {
+    if (!(of_sample(sample) == bounds)) {
+      throw InputError(
+          fmt::format("a draw's viewport of {} x {} pixels at ({}, {}) cuts through the samples of a pixel, "
+                      "and raster.samples "
+                      "is {}; legal: viewports of whole pixels, or raster.samples = 1",
+                      draw.viewport.z, draw.viewport.w, draw.viewport.x, draw.viewport.y, samples.count));
+    }
+  }
+  return bounds;
+}
+
+/// Throws InputError for lines and points where a pixel has other samples than its centre.
+void require_samples_known(const Command& draw, const Config& config) {
+  if (!draw.fills_triangles() && !sample_pattern(config).is_centre()) {
+    throw InputError(
+        fmt::format("a draw of {} indices from {} draws lines or points, and raster.samples is {}; legal for "
+                    "such draws: raster.samples = 1, at the pixel centre",
+                    draw.index_count, draw.first_index, config.raster.samples));
+  }
+}
+
+}  // namespace
+
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config) {
+  require_samples_known(draw, config);
   const FillRule rule = fill_rule(draw, config);
   const bool has_faces = draw.primitive == Primitive::kTriangles;
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
@@ -103,13 +147,14 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
           .fill_rule = rule,
           .conservative = conservative(draw, config),
           .square_reach = square_reach(draw, config),
-          .bounds = intersect(drawable_rect(draw.scissor, target), viewport_rect(draw.viewport, rule)),
+          .bounds = draw_bounds(draw, target, rule, config),
           .depth_format = format,
           .limits = depth_limits(draw, format),
           .interpolator = config.depth.interpolator,
           .hi_z = config.hi_z.enabled,
           .line_rule = draw.line_rule,
-          .line_width = thin_width(draw.line_width)};
+          .line_width = thin_width(draw.line_width),
+          .samples = sample_pattern(config).box()};
 }
 
 SetupState setup_state(const SetupState& draw, const ScreenTriangle& triangle) {
@@ -128,7 +173,8 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
                     .format = format,
                     .interpolator = config.depth.interpolator,
                     .sub_pixel_bits = config.raster.sub_pixel_bits,
-                    .square_reach = square_reach(draw, config)};
+                    .square_reach = square_reach(draw, config),
+                    .samples = sample_pattern(config)};
   state.late = state.write && mode == LateZ::kLate && touches_depth(state);
   return state;
 }
@@ -190,13 +236,15 @@ DrawnClear drawn_clear(const PixelRect& rect, std::uint32_t code, DepthFormat fo
                     .depth_format = format,
                     .limits = {.least = code, .most = code},
                     .interpolator = config.depth.interpolator,
-                    .hi_z = config.hi_z.enabled},
+                    .hi_z = config.hi_z.enabled,
+                    .samples = sample_pattern(config).box()},
           .early_z = {.test = true,
                       .write = true,
                       .func = DepthFunc::kAlways,
                       .format = format,
                       .interpolator = config.depth.interpolator,
-                      .sub_pixel_bits = config.raster.sub_pixel_bits}};
+                      .sub_pixel_bits = config.raster.sub_pixel_bits,
+                      .samples = sample_pattern(config)}};
 }
 
 }  // namespace halfspace

@@ -17,9 +17,9 @@ namespace halfspace {
 /// Scissor and target, in pixels.
 PixelRect drawable_rect(const Scissor& scissor, const Target& target);
 
-/// The pixels whose centre lies in the viewport, which is x, y, width and height; a width or height may be
+/// The pixels whose sample lies in the viewport, which is x, y, width and height; a width or height may be
 /// negative. Clipping to the sides of the clip volume would leave no sample outside of them.
-PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule);
+PixelRect viewport_rect(const glm::vec4& viewport, FillRule rule, const SamplePosition& sample = {});
 
 /// Depth clamp keeps fragments within the draw's depth range; without it they are kept within [0, 1], or
 /// where that range is unrestricted not at all.
@@ -35,7 +35,8 @@ int square_reach(const Command& draw, const Config& config);
 /// That of the draw, or that of all draws where the configuration has one.
 FillRule fill_rule(const Command& draw, const Config& config);
 
-/// `format` is that of the target's depth surface, none where it has none.
+/// `format` is that of the target's depth surface, none where it has none. Throws InputError where the
+/// viewport holds other samples of a pixel at one side than at the other: bounds are of whole pixels.
 SetupState setup_state(const Command& draw, const Target& target, DepthFormat format, const Config& config);
 EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config& config);
 

@@ -16,13 +16,13 @@ namespace halfspace {
 
 inline constexpr std::uint32_t kNothingVisible = 0xFFFFFFFFu;
 
-/// A depth surface, or a target without depth, and what happened to its pixels. Without a clear depth starts
-/// at 1.
+/// A depth surface, or a target without depth, and what happened to its samples: the images have a value for
+/// each sample of each pixel. Without a clear depth starts at 1.
 struct Surface {
   std::optional<std::uint32_t> target;  ///< without depth: the target that it is
   DepthFormat format = DepthFormat::kNone;
   TiledImage<std::uint32_t> codes;      ///< stored depth codes; without depth only their size counts
-  TiledImage<std::uint16_t> fragments;  ///< fragments that covered each pixel, at most 65535; on request
+  TiledImage<std::uint16_t> fragments;  ///< fragments that covered each sample, at most 65535; on request
   TiledImage<std::uint16_t> survivors;  ///< fragments that passed early-Z, at most 65535; on request
   /// The triangle that wrote the depth last, counted through all draws, or kNothingVisible. On a surface
   /// where no draw writes depth, the one that passed last. Kept on request.

@@ -137,7 +137,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
     ++result_.draws_not_filled;
   } else {
     front_end_.emplace(frame_, command, format, config_.raster.sub_pixel_bits, fill_rule(command, config_),
-                       square_reach(command, config_));
+                       square_reach(command, config_), sample_pattern(config_).is_centre());
     triangle_count_ = command.primitive_count();
     next_triangle_ = 0;
   }

@@ -176,7 +176,8 @@ class InOrderRun {
     if (stream_) {
       stream_->job(quads);
       if (wants_tiles_) {
-        stream_->tile({.x = std::uint32_t{job.tile_x} * TileSize, .y = std::uint32_t{job.tile_y} * TileSize});
+        const std::uint32_t column = job.tile_x / static_cast<std::uint32_t>(config_.raster.samples);
+        stream_->tile({.x = column * TileSize, .y = std::uint32_t{job.tile_y} * TileSize});
       }
     }
   }

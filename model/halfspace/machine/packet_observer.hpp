@@ -18,7 +18,8 @@ struct QuadEvent {
   std::uint32_t draw = 0;      ///< counts the draws of the frame, not its clears
   std::uint32_t triangle = 0;  ///< in the draw
   std::uint32_t surface = kNoSurface;
-  std::uint32_t x = 0;  ///< top left pixel
+  std::uint8_t sample = 0;  ///< of each of its pixels
+  std::uint32_t x = 0;      ///< top left pixel
   std::uint32_t y = 0;
   bool front = false;       ///< the triangle faces front
   std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)

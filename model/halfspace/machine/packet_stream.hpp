@@ -16,21 +16,25 @@
 
 namespace halfspace {
 
-/// A block job: the blocks without a tile that the walker visited since the job before, and its tile jobs, 1
-/// to 64.
+/// A block job: the blocks without a tile that the walker visited since the job before, and its tile jobs, as
+/// many as it has tiles with several samples a pixel times those: at most 1023.
 class StreamBlock {
  public:
   StreamBlock() = default;
   StreamBlock(std::uint32_t empty_before, int jobs)
-      : word_(empty_before | static_cast<std::uint32_t>(jobs) << 24) {}
+      : word_(empty_before | jobs_field(static_cast<std::uint32_t>(jobs))) {}
   explicit StreamBlock(std::uint32_t word) : word_(word) {}
-  /// A screen has no more than 2^22 blocks.
-  [[nodiscard]] std::uint32_t empty_before() const { return word_ & 0xFFFFFFu; }
-  [[nodiscard]] int jobs() const { return static_cast<int>(word_ >> 24); }
-  void add_job() { word_ += 1u << 24; }
+  /// A screen has no more than 2^22 blocks, one of which is this one.
+  [[nodiscard]] std::uint32_t empty_before() const { return word_ & kEmptyMask; }
+  [[nodiscard]] int jobs() const { return static_cast<int>(word_ >> 24 | (word_ >> 22 & 3) << 8); }
+  void add_job() { *this = StreamBlock(empty_before(), jobs() + 1); }
   [[nodiscard]] std::uint32_t word() const { return word_; }
 
  private:
+  static constexpr std::uint32_t kEmptyMask = (1u << 22) - 1;
+  /// The low eight bits on top, as records without samples have them, the others below them.
+  static constexpr std::uint32_t jobs_field(std::uint32_t jobs) { return jobs << 24 | (jobs >> 8 & 3) << 22; }
+
   std::uint32_t word_ = 0;
 };
 
@@ -46,11 +50,12 @@ class StreamAccess {
   StreamAccess() = default;
   StreamAccess(std::uint32_t tile_x, std::uint32_t tile_y, std::uint8_t touched, std::uint8_t written,
                std::uint8_t sure = 0, ZShifts shifts = {}, bool late = false, bool late_write = false)
-      : words_{
-            tile_x | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
-            sure | std::uint32_t{shifts.bits()} << 4 | (late ? 1u << 12 : 0) | (late_write ? 1u << 13 : 0)} {}
+      : words_{(tile_x & 0xFFF) | tile_y << 12 | std::uint32_t{touched} << 24 | std::uint32_t{written} << 28,
+               sure | std::uint32_t{shifts.bits()} << 4 | (late ? 1u << 12 : 0) |
+                   (late_write ? 1u << 13 : 0) | tile_x >> 12 << 14} {}
   explicit StreamAccess(const std::array<std::uint32_t, 2>& words) : words_(words) {}
-  [[nodiscard]] std::uint32_t tile_x() const { return words_[0] & 0xFFF; }
+  /// With several samples a pixel, of a column of one of them (see TileJob): 16 bits.
+  [[nodiscard]] std::uint32_t tile_x() const { return (words_[0] & 0xFFF) | (words_[1] >> 14 & 0xF) << 12; }
   [[nodiscard]] std::uint32_t tile_y() const { return words_[0] >> 12 & 0xFFF; }
   [[nodiscard]] std::uint8_t touched() const { return words_[0] >> 24 & 0xF; }
   [[nodiscard]] std::uint8_t written() const { return static_cast<std::uint8_t>(words_[0] >> 28); }

@@ -69,6 +69,7 @@ std::span<const Surface> depth_surfaces(const std::vector<Surface>& surfaces) {
 
 std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, const Watch& watch) {
   const int tile_size = config.tile_walker.tile_size;
+  const int samples = config.raster.samples;
   std::vector<Surface> surfaces;
   for (const SurfaceShape& shape : surface_shapes(frame)) {
     Surface& surface = surfaces.emplace_back();
@@ -77,13 +78,13 @@ std::vector<Surface> make_surfaces(const Frame& frame, const Config& config, con
     }
     surface.target = shape.target;
     surface.format = shape.format;
-    surface.codes = {shape.width, shape.height, tile_size, largest_code(shape.format)};
+    surface.codes = {shape.width, shape.height, tile_size, largest_code(shape.format), samples};
     if (watch.count_pixels) {
-      surface.fragments = {shape.width, shape.height, tile_size, 0};
-      surface.survivors = {shape.width, shape.height, tile_size, 0};
+      surface.fragments = {shape.width, shape.height, tile_size, 0, samples};
+      surface.survivors = {shape.width, shape.height, tile_size, 0, samples};
     }
     if (watch.keep_visible) {
-      surface.visible = {shape.width, shape.height, tile_size, kNothingVisible};
+      surface.visible = {shape.width, shape.height, tile_size, kNothingVisible, samples};
     }
     if (watch.keep_sums) {
       surface.sums = {shape.width, shape.height, tile_size, config.block_walker.block_size};

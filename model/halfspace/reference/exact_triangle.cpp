@@ -29,6 +29,11 @@ GridPoint pixel_centre(std::int64_t x, std::int64_t y, int subpixel_bits) {
   return {x * one + one / 2, y * one + one / 2};
 }
 
+GridPoint place_in_pixel(std::int64_t x, std::int64_t y, int right, int down, int subpixel_bits) {
+  const std::int64_t one = std::int64_t{1} << subpixel_bits;
+  return {x * one + right * one / 16, y * one + down * one / 16};
+}
+
 bool covers(const GridTriangle& triangle, const GridPoint& sample, TieRule rule) {
   if (twice_area(triangle[0], triangle[1], triangle[2]) == 0) return false;
   const GridTriangle t = clockwise(triangle);

@@ -29,6 +29,11 @@ using GridTriangle = std::array<GridPoint, 3>;
 /// The centre of pixel (x, y) on the grid of 1/2^subpixel_bits pixel.
 [[nodiscard]] GridPoint pixel_centre(std::int64_t x, std::int64_t y, int subpixel_bits);
 
+/// The place in pixel (x, y) that is `right` and `down` sixteenths of a pixel from its top left corner, on
+/// the same grid; subpixel_bits of 4 or more.
+[[nodiscard]] GridPoint place_in_pixel(std::int64_t x, std::int64_t y, int right, int down,
+                                       int subpixel_bits);
+
 /// Whether `triangle` covers `sample`. Either winding; a triangle without area covers nothing.
 [[nodiscard]] bool covers(const GridTriangle& triangle, const GridPoint& sample, TieRule rule);
 

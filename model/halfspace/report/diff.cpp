@@ -81,7 +81,7 @@ std::string identity(const std::vector<Field>& fields, const std::byte* record) 
   std::string text;
   for (const Field& field : fields) {
     if (field.name == "draw" || field.name == "triangle" || field.name == "x" || field.name == "y" ||
-        field.name == "size") {
+        field.name == "size" || field.name == "sample") {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.name, value_text(field, record, 0));
     }
   }
@@ -92,6 +92,11 @@ std::string place(const NpyArray& array, const std::vector<Field>& fields, std::
                   const std::byte* record) {
   if (array.shape.size() == 2) {
     return fmt::format("pixel ({}, {})", index % array.shape[1], index / array.shape[1]);
+  }
+  if (array.shape.size() == 3) {
+    const std::size_t row = index / array.shape[2];
+    return fmt::format("sample {} of pixel ({}, {})", row / array.shape[1], index % array.shape[2],
+                       row % array.shape[1]);
   }
   return fmt::format("record {} ({})", index, identity(fields, record));
 }
@@ -118,7 +123,7 @@ std::optional<FileDifference> compare_arrays(const fs::path& a_path, const fs::p
   const std::string name = a_path.filename().string();
   NpyArray a = read_npy(a_path);
   NpyArray b = read_npy(b_path);
-  if (a.descr != b.descr || a.shape.size() != b.shape.size() || (a.shape.size() == 2 && a.shape != b.shape)) {
+  if (a.descr != b.descr || a.shape.size() != b.shape.size() || (a.shape.size() >= 2 && a.shape != b.shape)) {
     return FileDifference{name, 1, fmt::format("dtype or shape: {} and {}", a.descr, b.descr)};
   }
   const std::vector<Field> fields = parse_descr(a.descr, a_path.string());

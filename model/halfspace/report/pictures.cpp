@@ -95,13 +95,28 @@ glm::vec3 face_normal(const Frame& frame, const Command& draw, std::uint32_t tri
   return glm::dot(unit, away_from_eye) > 0 ? -unit : unit;
 }
 
-/// Calls paint(x, y) for each pixel and stores what it returns.
+/// Calls color(x, y, sample) for each sample and stores the mean of a pixel's: the box filter.
 template <class Paint>
 Picture paint(const Surface& surface, const Paint& color) {
   Picture picture(surface.codes.width(), surface.codes.height());
+  const int samples = surface.codes.samples();
+  const auto pixel = [&](int x, int y) {
+    std::array<int, 3> sum{};
+    for (int sample = 0; sample < samples; ++sample) {
+      const Rgb one = color(x, y, sample);
+      for (std::size_t i = 0; i < 3; ++i) {
+        sum[i] += one[i];
+      }
+    }
+    Rgb mean{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      mean[i] = static_cast<std::uint8_t>((sum[i] + samples / 2) / samples);
+    }
+    return mean;
+  };
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      picture.at(x, y) = color(x, y);
+      picture.at(x, y) = pixel(x, y);
     }
   }
   return picture;
@@ -128,8 +143,8 @@ Picture paint_squares(const Surface& surface, int side, const Color& color) {
 Picture shaded_picture(const Frame& frame, const FrameResult& result, std::size_t surface) {
   const glm::vec3 light = glm::normalize(glm::vec3(-0.45f, 0.75f, 0.6f));
   const DrawLookup draws(frame);
-  return paint(result.surfaces[surface], [&](int x, int y) {
-    const std::uint32_t triangle = result.surfaces[surface].visible.at(x, y);
+  return paint(result.surfaces[surface], [&](int x, int y, int sample) {
+    const std::uint32_t triangle = result.surfaces[surface].visible.at(x, y, sample);
     if (triangle == kNothingVisible) {
       return kBackground;
     }
@@ -152,8 +167,8 @@ Picture depth_picture(const Surface& surface) {
     }
   }
   std::sort(sorted.begin(), sorted.end());
-  return paint(surface, [&](int x, int y) {
-    const std::uint32_t code = surface.codes.at(x, y);
+  return paint(surface, [&](int x, int y, int sample) {
+    const std::uint32_t code = surface.codes.at(x, y, sample);
     if (code == far || sorted.empty()) {
       return kBackground;
     }
@@ -173,8 +188,8 @@ Picture overdraw_picture(const Surface& surface) {
   // The scale ends where all but one pixel in a thousand do, so that a few hot spots do not hide the rest.
   std::sort(counts.begin(), counts.end());
   const float most = std::max<float>(1, counts[counts.size() - 1 - counts.size() / 1000]);
-  return paint(surface, [&](int x, int y) {
-    const std::uint16_t count = surface.fragments.at(x, y);
+  return paint(surface, [&](int x, int y, int sample) {
+    const std::uint16_t count = surface.fragments.at(x, y, sample);
     return count == 0 ? Rgb{} : to_rgb(heat(0.15f + 0.85f * static_cast<float>(count) / most));
   });
 }

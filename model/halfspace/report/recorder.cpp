@@ -1,5 +1,7 @@
 #include "halfspace/report/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,7 +10,7 @@ namespace halfspace {
 namespace {
 
 #pragma pack(push, 1)
-/// A record of quads.npy.
+/// A record of quads.npy. Where a pixel has several samples a byte follows, the number of the sample.
 struct QuadRecord {
   std::uint32_t draw, triangle, surface, x, y;
   std::uint8_t mask, passed;
@@ -26,7 +28,8 @@ struct TileRecord {
 constexpr const char* kQuadDescr =
     "[('draw','<u4'),('triangle','<u4'),('surface','<u4'),('x','<u4'),('y','<u4'),('mask','|u1'),('passed','|"
     "u1'),"
-    "('depth','<u4',(4,)),('cycle','<u8')]";
+    "('depth','<u4',(4,)),('cycle','<u8')";
+constexpr const char* kSampleDescr = ",('sample','|u1')";
 constexpr const char* kTileDescr =
     "[('draw','<u4'),('triangle','<u4'),('tile_x','<u4'),('tile_y','<u4'),('verdict','|u1')]";
 
@@ -37,9 +40,10 @@ void append(NpyWriter& file, const Record& record) {
 
 }  // namespace
 
-Recorder::Recorder(const Options& options) {
+Recorder::Recorder(const Options& options) : with_sample_(options.samples > 1) {
   if (options.quads) {
-    quads_.emplace(*options.quads, kQuadDescr, sizeof(QuadRecord));
+    const std::string descr = fmt::format("{}{}]", kQuadDescr, with_sample_ ? kSampleDescr : "");
+    quads_.emplace(*options.quads, descr, sizeof(QuadRecord) + (with_sample_ ? 1 : 0));
   }
   if (options.tiles) {
     tiles_.emplace(*options.tiles, kTileDescr, sizeof(TileRecord));
@@ -57,6 +61,9 @@ void Recorder::quad(const QuadEvent& event) {
                              event.passed,
                              {z[0], z[1], z[2], z[3]},
                              event.cycle});
+  if (with_sample_) {
+    append(*quads_, event.sample);
+  }
 }
 
 void Recorder::decision(const DecisionEvent& event) {

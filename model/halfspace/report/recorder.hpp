@@ -15,6 +15,7 @@ class Recorder : public PacketObserver {
   struct Options {
     std::optional<std::filesystem::path> quads;  ///< file to write
     std::optional<std::filesystem::path> tiles;  ///< file to write
+    int samples = 1;                             ///< of a pixel; with several a quad's record says which
   };
 
   explicit Recorder(const Options& options);
@@ -28,6 +29,7 @@ class Recorder : public PacketObserver {
   void finish();
 
  private:
+  bool with_sample_;
   std::optional<NpyWriter> quads_;
   std::optional<NpyWriter> tiles_;
 };

@@ -10,33 +10,45 @@
 namespace halfspace {
 namespace {
 
-/// Writes an image with value(x, y) at each pixel.
+/// Writes an image with value(x, y, sample) for each sample of each pixel: of several, sample 0 of all pixels
+/// first.
 template <class Value, class Get>
-void write_array(const std::filesystem::path& path, const char* descr, int width, int height,
+void write_array(const std::filesystem::path& path, const char* descr, const TiledImage<std::uint32_t>& size,
                  const Get& value) {
-  NpyWriter writer(path, descr, sizeof(Value) * static_cast<std::size_t>(width), fmt::format(" {}", width));
+  const int width = size.width();
+  const int height = size.height();
+  const int samples = size.samples();
+  std::string tail = fmt::format(" {}", width);
+  std::size_t record = sizeof(Value) * static_cast<std::size_t>(width);
+  if (samples > 1) {
+    tail = fmt::format(" {},{}", height, tail);
+    record *= static_cast<std::size_t>(height);
+  }
+  NpyWriter writer(path, descr, record, tail);
   std::vector<Value> row(static_cast<std::size_t>(width));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      row[static_cast<std::size_t>(x)] = value(x, y);
+  for (int sample = 0; sample < samples; ++sample) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        row[static_cast<std::size_t>(x)] = value(x, y, sample);
+      }
+      writer.append(std::as_bytes(std::span(row)));
     }
-    writer.append(std::as_bytes(std::span(row)));
   }
   writer.finish();
 }
 
 void write_arrays(OutputFolder& folder, const Surface& surface, const std::string& label) {
-  const int width = surface.codes.width();
-  const int height = surface.codes.height();
+  const TiledImage<std::uint32_t>& codes = surface.codes;
   const auto array = [&](const char* kind) { return folder.file(fmt::format("{}{}.npy", kind, label)); };
   if (!surface.target) {
-    write_array<float>(array("depth"), "'<f4'", width, height,
-                       [&](int x, int y) { return depth_of_code(surface.format, surface.codes.at(x, y)); });
+    write_array<float>(array("depth"), "'<f4'", codes, [&](int x, int y, int sample) {
+      return depth_of_code(surface.format, codes.at(x, y, sample));
+    });
   }
-  write_array<std::uint16_t>(array("fragments"), "'<u2'", width, height,
-                             [&](int x, int y) { return surface.fragments.at(x, y); });
-  write_array<std::uint16_t>(array("survivors"), "'<u2'", width, height,
-                             [&](int x, int y) { return surface.survivors.at(x, y); });
+  write_array<std::uint16_t>(array("fragments"), "'<u2'", codes,
+                             [&](int x, int y, int sample) { return surface.fragments.at(x, y, sample); });
+  write_array<std::uint16_t>(array("survivors"), "'<u2'", codes,
+                             [&](int x, int y, int sample) { return surface.survivors.at(x, y, sample); });
 }
 
 }  // namespace

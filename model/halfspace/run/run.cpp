@@ -123,6 +123,12 @@ RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const
   if (!options.quad_merging) {
     return run_engine(fidelity, frame, config, options);
   }
+  if (!sample_pattern(config).is_centre()) {
+    throw OptionError(
+        fmt::format("configuration key 'raster.samples' is {}; legal with quad merging: 1, at the "
+                    "pixel centre",
+                    config.raster.samples));
+  }
   QuadMerging merging(frame, *options.quad_merging);
   RunOptions watched = options;
   std::optional<ObserverPair> both;

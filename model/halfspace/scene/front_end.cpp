@@ -1,9 +1,13 @@
 #include "halfspace/scene/front_end.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+
+#include "halfspace/numerics/error.hpp"
 
 namespace halfspace {
 namespace {
@@ -34,13 +38,14 @@ FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, 
                draw.has(Flag::kBottomLeftRule) ? FillRule::kBottomLeft : FillRule::kTopLeft) {}
 
 FrontEnd::FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits,
-                   FillRule rule, int square_reach)
+                   FillRule rule, int square_reach, bool centres)
     : frame_(frame),
       draw_(draw),
       format_(format),
       sub_pixel_bits_(sub_pixel_bits),
       square_reach_(square_reach),
       rule_(rule),
+      centres_(centres),
       guard_band_(guard_band(draw)),
       sub_pixels_(1 << sub_pixel_bits),
       screen_({.x_last = static_cast<std::int32_t>(frame.targets[draw.target].width) - 1,
@@ -214,6 +219,13 @@ void FrontEnd::emit_snapped(ScreenTriangle triangle, std::array<double, 3> z, do
     }
     const std::size_t before = out.size();
     if (std::ranges::any_of(z, [this](double depth) { return is_far(depth); })) {
+      if (!centres_) {
+        throw InputError(
+            fmt::format("triangle {} of a draw of {} indices from {} has a vertex too far outside the depth "
+                        "range for a plane; "
+                        "legal for such draws: raster.samples = 1, at the pixel centre",
+                        triangle.triangle, draw_.index_count, draw_.first_index));
+      }
       emit_far(triangle, z, limits_, format_, grid, out);
       counters.emitted += out.size() - before;
       ++counters.far_depth;
@@ -227,7 +239,8 @@ void FrontEnd::emit_snapped(ScreenTriangle triangle, std::array<double, 3> z, do
       for (double& depth : z) {
         depth = static_cast<float>(depth);
       }
-      if (square_reach_ == 0 && may_be_tiny(z, limits_)) {  // else no plane is interpolated
+      if (square_reach_ == 0 && centres_ &&
+          may_be_tiny(z, limits_)) {  // else no plane of centres is interpolated
         counters.tiny_depth += emit_tiny(triangle, z, grid, out) ? 1 : 0;
         counters.emitted += out.size() - before;
         return;

@@ -29,9 +29,10 @@ namespace halfspace {
 class FrontEnd {
  public:
   /// `format` is that of the surface the draw tests against; none leaves z at 0. `rule`: which sides of a
-  /// point own the centres on them. `square_reach`: as numerics/conservative.hpp has it.
+  /// point own the centres on them. `square_reach`: as numerics/conservative.hpp has it. `centres`: a pixel
+  /// has one sample, at its centre; else no depth is resolved sample by sample (depth_by_sample.hpp).
   FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits, FillRule rule,
-           int square_reach = 0);
+           int square_reach = 0, bool centres = true);
   /// With the rule of the draw.
   FrontEnd(const Frame& frame, const Command& draw, DepthFormat format, int sub_pixel_bits);
 
@@ -65,7 +66,8 @@ class FrontEnd {
   /// corners 0, n + 1 and n + 2. Fewer than three, or one with w not above 0, where process() appends none.
   [[nodiscard]] Polygon<Corner> corners(std::uint32_t index) const;
 
-  /// Appends what primitive `index` of the draw becomes.
+  /// Appends what primitive `index` of the draw becomes. Throws InputError where a vertex is so far outside
+  /// the depth range that only its samples one by one have a depth, and they are not at the centres.
   void process(std::uint32_t index, std::vector<ScreenTriangle>& out, FrontEndCounters& counters) const;
 
  private:
@@ -135,6 +137,7 @@ class FrontEnd {
   int sub_pixel_bits_;
   int square_reach_;
   FillRule rule_;
+  bool centres_;
   double guard_band_;  ///< pixels to each side of the origin of the window
   double sub_pixels_;
   PixelRect screen_;  ///< the target

@@ -23,14 +23,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void check_size(const Picture& picture, const Frame& frame) {
+void check_size(const Picture& picture, const Frame& frame, int samples) {
   const Target& target = frame.targets.front();
-  const std::size_t pixels = std::size_t{target.width} * target.height;
+  const std::size_t values = std::size_t{target.width} * target.height * static_cast<std::size_t>(samples);
   if (picture.width != target.width || picture.height != target.height ||
-      picture.fragments.size() != pixels || picture.survivors.size() != pixels ||
-      picture.codes.size() != pixels) {
-    throw InputError(fmt::format("the picture is {}x{}; it must be that of its frame, {}x{}", picture.width,
-                                 picture.height, target.width, target.height));
+      picture.fragments.size() != values || picture.survivors.size() != values ||
+      picture.codes.size() != values) {
+    throw InputError(fmt::format("the picture is {}x{}; it must be that of its frame, {}x{}{}", picture.width,
+                                 picture.height, target.width, target.height,
+                                 samples > 1 ? fmt::format(" with {} samples a pixel", samples) : ""));
   }
 }
 
@@ -40,11 +41,11 @@ Finding draw_and_judge(const CampaignPlan& plan, const Family& family, std::uint
   Finding finding{.index = index};
   try {
     const Picture picture = subject.draw(made.frame);
-    check_size(picture, made.frame);
+    check_size(picture, made.frame, plan.precision.samples.count);
     Picture twin;
     if (made.twin) {
       twin = subject.draw(made.twin->frame);
-      check_size(twin, made.twin->frame);
+      check_size(twin, made.twin->frame, plan.precision.samples.count);
     }
     finding.tally = judge(made, plan.precision, plan.depth, picture, made.twin ? &twin : nullptr);
   } catch (const std::exception& error) {

@@ -55,7 +55,8 @@ using Colour = std::array<std::uint8_t, 3>;
 /// A picture of squares, one for each pixel; colour(pixel) is its colour.
 template <class ColourOf>
 halfspace::Picture zoomed(const Picture& picture, const ColourOf& colour) {
-  halfspace::Picture image(static_cast<int>(picture.width) * kZoom, static_cast<int>(picture.height) * kZoom);
+  const std::size_t rows = picture.fragments.size() / picture.width;  // samples below each other
+  halfspace::Picture image(static_cast<int>(picture.width) * kZoom, static_cast<int>(rows) * kZoom);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       image.at(x, y) =

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/numerics/conservative.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/reference/exact_triangle.hpp"
 #include "halfspace/scene/frame.hpp"
 
@@ -20,6 +21,13 @@ struct Precision {
   reference::TieRule rule = reference::TieRule::kTopLeft;  ///< of all draws
   Conservative conservative = Conservative::kOff;          ///< which pixels triangles have
   int uncertainty = 0;                                     ///< of these, in sub-pixels
+  SamplePattern samples{};                                 ///< of a pixel
+
+  /// Sample `sample` of pixel (x, y) on the sub-pixel grid.
+  [[nodiscard]] reference::GridPoint sample_of(std::int64_t x, std::int64_t y, int sample) const {
+    const SamplePosition& at = samples.at[static_cast<std::size_t>(sample)];
+    return reference::place_in_pixel(x, y, at.x, at.y, sub_pixel_bits);
+  }
 };
 
 /// For people: "8 sub-pixel bits, unorm24, fill rule top_left".
@@ -52,6 +60,7 @@ struct Case {
   std::vector<KnownTriangle> triangles{};  ///< all of the frame, in order: coverage by definition
   bool depth = false;      ///< every draw passes and writes: a pixel has the depth of the last that covers it
   bool partition = false;  ///< the triangles tile the target: each pixel exactly once
+  int sample = 0;          ///< of each pixel, of which the two that follow speak
   std::vector<std::int32_t> fragments{};  ///< of each pixel, row by row, or kUncertain
   std::vector<std::int32_t> survivors{};  ///< the same, behind the depth test
   std::optional<Twin> twin{};

@@ -5,27 +5,32 @@
 #include <array>
 #include <cmath>
 
+#include "halfspace/stress/case.hpp"
 #include "halfspace/stress/exact_plane.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 
 namespace halfspace::stress {
 
 /// In units of the last place of the stored code at the sample of `error`.
-inline double depth_bound(DepthFormat format, DepthInterpolator interpolator, const std::array<float, 3>& z,
-                          const ExactPlane& plane, const ExactPlane::Error& error) {
+inline double depth_bound(const Precision& precision, DepthInterpolator interpolator,
+                          const std::array<float, 3>& z, const ExactPlane& plane,
+                          const ExactPlane::Error& error) {
+  const DepthFormat format = precision.format;
+  // The front end resolves depths that are tiny beside the largest vertex, where samples are at the centres.
+  const bool by_sample = precision.samples.is_centre();
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
   const double vertex = std::max(std::abs(least), std::abs(most));
   const double largest = std::ldexp(1.0, std::ilogb(std::max(vertex, plane.offset())) + 1);
   const bool is_plane = interpolator == DepthInterpolator::kPlane;
   if (format == DepthFormat::kFloat32) {
     const double relative = is_plane ? 0.59 : 0.52;
-    if (least >= 0 && plane.offset() == 0) {
+    if (least >= 0 && plane.offset() == 0 && (by_sample || !is_plane)) {
       return relative;
     }
     // An offset is a float32, and where terms cancel they keep their own last place.
     const double rounded = plane.offset() == 0 ? 0 : std::max(plane.offset() * 0x1p-24, 0x1p-150);
     const double absolute = rounded + largest * (is_plane ? 0x1p-58 : 5 * 0x1p-31);
-    return (is_plane && plane.offset() == 0 ? relative : relative + absolute / error.unit);
+    return is_plane && by_sample && plane.offset() == 0 ? relative : relative + absolute / error.unit;
   }
   // Vertices and offset are rounded to half a unit of a vertex depth each.
   const double fraction = std::ldexp(1.0, -vertex_depth_fraction(format));

@@ -23,14 +23,22 @@ class DrawList {
   /// `size`: side of the target in pixels, a power of two of at most 256, so that the guard band's corners
   /// reach clip space unrounded.
   DrawList(const Precision& precision, std::uint32_t size, std::uint64_t seed)
-      : random(seed), precision_(precision), size_(size), builder_(size, precision.format) {}
+      : random(seed),
+        precision_(precision),
+        size_(size),
+        sample_(
+            static_cast<int>(SplitMix64(~seed).next() % static_cast<std::uint64_t>(precision.samples.count))),
+        builder_(size, precision.format) {}
 
   [[nodiscard]] std::int64_t one() const { return std::int64_t{1} << precision_.sub_pixel_bits; }
   [[nodiscard]] std::int64_t size() const { return size_; }
   [[nodiscard]] std::int64_t extent() const { return size_ * one(); }
   [[nodiscard]] const Precision& precision() const { return precision_; }
-  [[nodiscard]] GridPoint centre(std::int64_t x, std::int64_t y) const {
-    return reference::pixel_centre(x, y, precision_.sub_pixel_bits);
+  /// The sample of each pixel that the case is about.
+  [[nodiscard]] int sample() const { return sample_; }
+  /// Of a pixel. Where it has one sample, at its centre, that.
+  [[nodiscard]] GridPoint sample_of(std::int64_t x, std::int64_t y) const {
+    return precision_.sample_of(x, y, sample_);
   }
 
   std::int64_t between(std::int64_t low, std::int64_t high) { return random.integer(low, high); }
@@ -93,7 +101,9 @@ class DrawList {
   Frame take_frame() { return std::move(builder_.frame); }
 
   /// The frame with its triangles, whose coverage the definition says.
-  Case take_defined() { return {.frame = std::move(builder_.frame), .triangles = std::move(triangles_)}; }
+  Case take_defined() {
+    return {.frame = std::move(builder_.frame), .triangles = std::move(triangles_), .sample = sample_};
+  }
 
   SplitMix64 random;
 
@@ -107,6 +117,7 @@ class DrawList {
 
   Precision precision_;
   std::int64_t size_;
+  int sample_;
   FrameBuilder builder_;
   std::uint32_t draws_ = 0;
   std::vector<KnownTriangle> triangles_;

@@ -18,10 +18,13 @@ class Decisions final : public PacketObserver {
 template <class Value>
 std::vector<std::uint32_t> by_row(const TiledImage<Value>& image) {
   std::vector<std::uint32_t> values;
-  values.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      values.push_back(image.at(x, y));
+  values.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()) *
+                 static_cast<std::size_t>(image.samples()));
+  for (int sample = 0; sample < image.samples(); ++sample) {
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        values.push_back(image.at(x, y, sample));
+      }
     }
   }
   return values;

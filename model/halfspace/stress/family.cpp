@@ -68,12 +68,17 @@ std::string to_text(const Precision& precision) {
   for (const reference::TieRuleInfo& info : reference::kTieRules) {
     rule = info.rule == precision.rule ? info.name : rule;
   }
-  const std::string pixels =
-      precision.conservative == Conservative::kOff
-          ? fmt::format("fill rule {}", rule)
-          : fmt::format("{} pixels, uncertainty {}",
-                        precision.conservative == Conservative::kOuter ? "outer" : "inner",
-                        precision.uncertainty);
+  std::string pixels = precision.conservative == Conservative::kOff
+                           ? fmt::format("fill rule {}", rule)
+                           : fmt::format("{} pixels, uncertainty {}",
+                                         precision.conservative == Conservative::kOuter ? "outer" : "inner",
+                                         precision.uncertainty);
+  if (!precision.samples.is_centre()) {
+    pixels += fmt::format(", {} samples:", precision.samples.count);
+    for (const SamplePosition& each : precision.samples.positions()) {
+      pixels += fmt::format(" {},{}", each.x, each.y);
+    }
+  }
   return fmt::format("{} sub-pixel bits, {}, {}", precision.sub_pixel_bits, name(precision.format), pixels);
 }
 

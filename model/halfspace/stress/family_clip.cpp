@@ -15,15 +15,18 @@ namespace {
 /// Counts the samples of a square target that clip-space triangles cover, where no rounding can decide.
 class CertainCounts {
  public:
-  CertainCounts(std::uint32_t size, const Precision& precision)
-      : size_(size), sub_pixel_bits_(precision.sub_pixel_bits), counts_(std::size_t{size} * size, 0) {}
+  CertainCounts(std::uint32_t size, const Precision& precision, int sample)
+      : size_(size),
+        sub_pixel_bits_(precision.sub_pixel_bits),
+        sample_(precision.samples.at[static_cast<std::size_t>(sample)]),
+        counts_(std::size_t{size} * size, 0) {}
 
   void add(const std::array<glm::vec4, 3>& triangle) {
     const HomogeneousTriangle exact(triangle, size_, sub_pixel_bits_);
     for (std::uint32_t y = 0; y < size_; ++y) {
       for (std::uint32_t x = 0; x < size_; ++x) {
         std::int32_t& count = counts_[std::size_t{y} * size_ + x];
-        const Certainty certainty = exact.covers(x, y);
+        const Certainty certainty = exact.covers(x, y, sample_);
         if (certainty == Certainty::kUncertain) {
           count = kUncertain;
         } else if (count != kUncertain) {
@@ -38,6 +41,7 @@ class CertainCounts {
  private:
   std::uint32_t size_;
   int sub_pixel_bits_;
+  SamplePosition sample_;
   std::vector<std::int32_t> counts_;
 };
 
@@ -48,7 +52,7 @@ Case beyond_band(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, kSize, seed);
   list.draw();
   const auto real = [&](double low, double high) { return list.random.real(low, high); };
-  CertainCounts counts(kSize, precision);
+  CertainCounts counts(kSize, precision, list.sample());
   for (int n = 0; n < 12; ++n) {
     std::array<glm::vec4, 3> triangle{};
     // From a point of the target far along a line that crosses it; the guard band ends at 2^12 of the clip
@@ -63,7 +67,7 @@ Case beyond_band(const Precision& precision, std::uint64_t seed) {
     list.add_clip(triangle);
     counts.add(triangle);
   }
-  Case made{.frame = list.take_frame()};
+  Case made{.frame = list.take_frame(), .sample = list.sample()};
   made.fragments = counts.take();
   return made;
 }
@@ -76,7 +80,7 @@ Case extreme_w(const Precision& precision, std::uint64_t seed) {
   constexpr int kApart = 40;
   const auto sign = [&] { return list.one_in(2) ? 1.0F : -1.0F; };
   const auto real = [&] { return static_cast<float>(list.random.real(0.5, 1)); };
-  CertainCounts counts(kSize, precision);
+  CertainCounts counts(kSize, precision, list.sample());
   for (int n = 0; n < 12; ++n) {
     // All of a triangle on a scale of its own: huge, denormal.
     const int scale = static_cast<int>(list.one_in(2) ? list.between(-146, 80) : list.between(-4, 4));
@@ -110,7 +114,7 @@ Case extreme_w(const Precision& precision, std::uint64_t seed) {
     list.add_clip(triangle);
     counts.add(triangle);
   }
-  Case made{.frame = list.take_frame()};
+  Case made{.frame = list.take_frame(), .sample = list.sample()};
   made.fragments = counts.take();
   return made;
 }

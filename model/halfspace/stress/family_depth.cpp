@@ -87,6 +87,9 @@ Case steep_depth(const Precision& precision, std::uint64_t seed) {
 
 Case clamp_and_offset(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, 64, seed);
+  // Depths so large that they are resolved sample by sample, and such offsets, are for samples at the
+  // centres.
+  const bool centres = precision.samples.is_centre();
   for (int n = 0; n < 12; ++n) {
     Command& draw = list.draw();
     const bool clamp = list.one_in(2);
@@ -98,14 +101,14 @@ Case clamp_and_offset(const Precision& precision, std::uint64_t seed) {
     }
     if (!clamp || list.one_in(2)) {
       draw.flags |= bits({Flag::kPolygonOffset});
-      draw.offset_factor = list.one_in(3) ? 0 : any(-10, 3);
+      draw.offset_factor = list.one_in(3) || !centres ? 0 : any(-10, 3);
       draw.offset_units = list.one_in(3) ? 0 : any(0, 20);
       draw.offset_clamp = list.one_in(2) ? 0 : any(-22, -1);
     }
     for (int k = 0; k < 4; ++k) {
       std::array<float, 3> z{};
       for (float& value : z) {
-        value = !clamp ? steep(list) : list.one_in(3) ? just_above_one(list) : any(-24, 20);
+        value = !clamp ? steep(list) : list.one_in(3) ? just_above_one(list) : any(-24, centres ? 20 : 13);
       }
       list.add(any_triangle(list), z);
     }
@@ -167,7 +170,7 @@ Case depth_stack(const Precision& precision, std::uint64_t seed) {
       for (std::uint32_t y = 0; y < kSize; ++y) {
         for (std::uint32_t x = 0; x < kSize; ++x) {
           const std::size_t pixel = y * kSize + x;
-          if (reference::covers(triangle, list.centre(x, y), precision.rule) &&
+          if (reference::covers(triangle, list.sample_of(x, y), precision.rule) &&
               reference::depth_test(static_cast<std::uint32_t>(func), layer, stored[pixel])) {
             ++survivors[pixel];
             stored[pixel] = writes ? layer : stored[pixel];

@@ -41,7 +41,7 @@ Case sub_pixel(const Precision& precision, std::uint64_t seed) {
   for (int n = 0; n < 300; ++n) {
     const std::int64_t half = list.one() / 2;
     const std::int64_t reach = list.between(1, half);
-    GridPoint middle = list.centre(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
+    GridPoint middle = list.sample_of(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
     if (list.one_in(3)) {
       middle = list.point_on_target();
     }
@@ -58,7 +58,7 @@ Case on_samples(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, 16, seed);
   list.draw();
   const auto sample = [&] {
-    return list.centre(list.between(-2, list.size() + 1), list.between(-2, list.size() + 1));
+    return list.sample_of(list.between(-2, list.size() + 1), list.between(-2, list.size() + 1));
   };
   for (int n = 0; n < 100; ++n) {
     GridTriangle triangle{sample(), sample(), sample()};
@@ -116,7 +116,8 @@ Case near_miss(const Precision& precision, std::uint64_t seed) {
   list.draw();
   const std::int64_t far = 32766 * list.one();
   for (int n = 0; n < 60; ++n) {
-    const GridPoint sample = list.centre(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
+    const GridPoint sample =
+        list.sample_of(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
     const std::int64_t reach = std::int64_t{1} << list.between(2, precision.sub_pixel_bits + 12);
     const std::int64_t dx = list.between(-reach, reach);
     const std::int64_t dy = list.between(-reach, reach);

@@ -28,7 +28,7 @@ Case fan(const Precision& precision, std::uint64_t seed) {
   list.draw();
   const std::int64_t x = list.between(0, list.size() - 1);
   const std::int64_t y = list.between(0, list.size() - 1);
-  const GridPoint middle = list.centre(x, y);
+  const GridPoint middle = list.sample_of(x, y);
   // One arm in each quadrant at least, so that no two that follow each other are half a turn apart or more.
   std::vector<GridPoint> arms;
   for (const auto& [sx, sy] : {std::array{1, 1}, std::array{-1, 1}, std::array{-1, -1}, std::array{1, -1}}) {
@@ -125,7 +125,7 @@ Case far_fan(const Precision& precision, std::uint64_t seed) {
     return glm::vec4(glm::dvec4(x, y, list.random.real(0.1, 0.9), 1) * w);
   };
   const GridPoint middle =
-      list.one_in(2) ? list.centre(list.between(0, 31), list.between(0, 31)) : list.point_on_target();
+      list.one_in(2) ? list.sample_of(list.between(0, 31), list.between(0, 31)) : list.point_on_target();
   const double scale = 2.0 / static_cast<double>(list.extent());
   const glm::dvec2 hub{static_cast<double>(middle.x) * scale - 1, static_cast<double>(middle.y) * scale - 1};
   // A quarter of a turn at most from one arm to the next, each far longer than the target is wide, so that
@@ -150,7 +150,7 @@ Case far_fan(const Precision& precision, std::uint64_t seed) {
     list.shuffle(triangle);
     list.add_clip(triangle);
   }
-  Case made{.frame = list.take_frame()};
+  Case made{.frame = list.take_frame(), .sample = list.sample()};
   made.fragments.assign(kSize * kSize, 1);
   return made;
 }
@@ -183,7 +183,7 @@ Case cut_mesh(const Precision& precision, std::uint64_t seed) {
   for (const auto& triangle : grid_mesh(list, corners, cells + 1)) {
     list.add_clip(triangle);
   }
-  Case made{.frame = list.take_frame()};
+  Case made{.frame = list.take_frame(), .sample = list.sample()};
   const double edge = 2.0 / static_cast<double>(cells);  // borders are jittered
   made.fragments = fragments_of(plane, 2 - 2 * edge, 2 + edge, kSize);
   return made;

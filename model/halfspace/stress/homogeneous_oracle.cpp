@@ -58,13 +58,14 @@ HomogeneousTriangle::HomogeneousTriangle(const std::array<glm::vec4, 3>& vertice
   }
 }
 
-Certainty HomogeneousTriangle::covers(std::uint32_t x, std::uint32_t y) const {
+Certainty HomogeneousTriangle::covers(std::uint32_t x, std::uint32_t y, const SamplePosition& sample) const {
   if (sides_.empty()) {
     return Certainty::kUncertain;
   }
   Certainty result = Certainty::kInside;
   for (const Linear& side : sides_) {
-    const mpz_class value = side.a * (256UL * x + 128) + side.b * (256UL * y + 128) + side.c;
+    const mpz_class value =
+        side.a * (256UL * x + 16UL * sample.x) + side.b * (256UL * y + 16UL * sample.y) + side.c;
     if (value < -side.reach) {
       return Certainty::kOutside;
     }

@@ -13,6 +13,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "halfspace/numerics/sample_pattern.hpp"
+
 namespace halfspace::stress {
 
 enum class Certainty : std::uint8_t { kOutside, kInside, kUncertain };
@@ -22,8 +24,8 @@ class HomogeneousTriangle {
   /// On a square target of `size` pixels. Coordinates must be finite. A vertex's depth is z / w, of 0 to 1.
   HomogeneousTriangle(const std::array<glm::vec4, 3>& vertices, std::uint32_t size, int sub_pixel_bits);
 
-  /// Of the centre of a pixel, and of all points within two sub-pixels of it in x and in y.
-  [[nodiscard]] Certainty covers(std::uint32_t x, std::uint32_t y) const;
+  /// Of a sample of pixel (x, y), and of all points within two sub-pixels of it in x and in y.
+  [[nodiscard]] Certainty covers(std::uint32_t x, std::uint32_t y, const SamplePosition& sample = {}) const;
 
  private:
   /// a x + b y + c in 1/256 pixel; `reach` is what it changes within two sub-pixels each way.

@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// Whether the triangle has the pixel, by the definition of what pixels triangles have.
-bool has_pixel(const reference::GridTriangle& triangle, std::int64_t x, std::int64_t y,
-               const Precision& precision) {
+/// Whether the triangle has sample `sample` of the pixel, by the definition of what pixels triangles have.
+/// Conservative pixels have one sample.
+bool has_sample(const reference::GridTriangle& triangle, std::int64_t x, std::int64_t y, int sample,
+                const Precision& precision) {
   if (precision.conservative == Conservative::kOff) {
-    return reference::covers(triangle, reference::pixel_centre(x, y, precision.sub_pixel_bits),
-                             precision.rule);
+    return reference::covers(triangle, precision.sample_of(x, y, sample), precision.rule);
   }
   const reference::PixelSquare square =
       reference::pixel_square(x, y, precision.sub_pixel_bits, precision.uncertainty);
@@ -29,16 +29,17 @@ bool has_pixel(const reference::GridTriangle& triangle, std::int64_t x, std::int
 
 /// What the definition says of the known triangles.
 struct Definition {
-  std::uint64_t samples = 0;              ///< looked at: all that lie in the box of a triangle
-  std::vector<std::int32_t> fragments{};  ///< of each pixel
+  std::uint64_t samples = 0;              ///< looked at: those of all pixels that the box of a triangle meets
+  std::vector<std::int32_t> fragments{};  ///< of each sample, in the order of Picture
   std::vector<std::uint32_t> last{};      ///< of the triangles that cover it, or kNone
 };
 
 Definition define(const Case& made, const Precision& precision) {
   const Target& target = made.frame.targets.front();
   const std::size_t pixels = std::size_t{target.width} * target.height;
-  Definition result{.fragments = std::vector<std::int32_t>(pixels, 0),
-                    .last = std::vector<std::uint32_t>(pixels, kNone)};
+  const std::size_t samples = pixels * static_cast<std::size_t>(precision.samples.count);
+  Definition result{.fragments = std::vector<std::int32_t>(samples, 0),
+                    .last = std::vector<std::uint32_t>(samples, kNone)};
   for (std::uint32_t i = 0; i < made.triangles.size(); ++i) {
     const KnownTriangle& triangle = made.triangles[i];
     const reference::GridTriangle& v = triangle.grid;
@@ -50,20 +51,32 @@ Definition define(const Case& made, const Precision& precision) {
     const auto pixel = [&](std::int64_t position, std::uint32_t size) {
       return std::clamp<std::int64_t>(position >> precision.sub_pixel_bits, 0, std::int64_t{size} - 1);
     };
+    const auto look = [&](std::int64_t x, std::int64_t y, int sample) {
+      ++result.samples;
+      if (has_sample(v, x, y, sample, precision)) {
+        const auto at =
+            static_cast<std::size_t>(sample) * pixels + static_cast<std::size_t>(y * target.width + x);
+        ++result.fragments[at];
+        result.last[at] = i;
+      }
+    };
     for (std::int64_t y = pixel(top - beside, target.height); y <= pixel(bottom + beside, target.height);
          ++y) {
       for (std::int64_t x = pixel(left - beside, target.width); x <= pixel(right + beside, target.width);
            ++x) {
-        ++result.samples;
-        if (has_pixel(v, x, y, precision)) {
-          const auto at = static_cast<std::size_t>(y * target.width + x);
-          ++result.fragments[at];
-          result.last[at] = i;
+        for (int sample = 0; sample < precision.samples.count; ++sample) {
+          look(x, y, sample);
         }
       }
     }
   }
   return result;
+}
+
+/// Where the sample that a law of each pixel speaks of begins in a picture.
+std::size_t plane_of(const Case& made) {
+  const Target& target = made.frame.targets.front();
+  return static_cast<std::size_t>(made.sample) * target.width * target.height;
 }
 
 void count(std::int32_t expected, std::uint32_t got, Tally& tally) {
@@ -95,8 +108,9 @@ void each_depth(const Case& made, const Precision& precision, const DepthLaw& la
             .try_emplace(last, triangle.grid, triangle.z, made.frame.commands[triangle.command],
                          precision.format, precision.sub_pixel_bits)
             .first->second;
+    const std::uint32_t row = at / picture.width;
     const reference::GridPoint sample =
-        reference::pixel_centre(at % picture.width, at / picture.width, precision.sub_pixel_bits);
+        precision.sample_of(at % picture.width, row % picture.height, static_cast<int>(row / picture.height));
     if (!plane.has_area()) {
       continue;
     }
@@ -105,7 +119,7 @@ void each_depth(const Case& made, const Precision& precision, const DepthLaw& la
       error.ulps = error.beyond;
     }
     const double bound =
-        law.bound ? *law.bound : depth_bound(precision.format, law.interpolator, triangle.z, plane, error);
+        law.bound ? *law.bound : depth_bound(precision, law.interpolator, triangle.z, plane, error);
     visit(at, error, bound);
   }
 }
@@ -120,6 +134,16 @@ void judge_depth(const Case& made, const Precision& precision, const DepthLaw& l
                tally.inexact += error.ulps > bound ? 1 : 0;
                tally.out_of_range += error.beyond > bound ? 1 : 0;
              });
+}
+
+/// Whether the definition says the same of all samples of a pixel: covered, or not.
+bool all_samples(const KnownTriangle& triangle, std::uint32_t x, std::uint32_t y, const Precision& precision,
+                 bool covered) {
+  bool all = true;
+  for (int sample = 0; sample < precision.samples.count; ++sample) {
+    all &= has_sample(triangle.grid, x, y, sample, precision) == covered;
+  }
+  return all;
 }
 
 /// Rejected: no sample of the tile is covered. Accepted: all of them are.
@@ -141,7 +165,7 @@ void judge_decisions(const Case& made, const Precision& precision, const Picture
          ++y) {
       for (std::uint32_t x = decision.tile_x * size;
            x < std::min((decision.tile_x + 1) * size, picture.width); ++x) {
-        sound &= has_pixel(triangle.grid, x, y, precision) != rejected;
+        sound &= all_samples(triangle, x, y, precision, !rejected);
       }
     }
     ++tally.decisions;
@@ -152,13 +176,19 @@ void judge_decisions(const Case& made, const Precision& precision, const Picture
 void judge_twin(const Twin& twin, const Picture& picture, const Picture& second, Tally& tally) {
   const auto width = static_cast<std::int64_t>(picture.width);
   const auto height = static_cast<std::int64_t>(picture.height);
-  for (std::int64_t y = 0; y < height - twin.dy; ++y) {
-    for (std::int64_t x = 0; x < width - twin.dx; ++x) {
-      const auto at = static_cast<std::size_t>(y * width + x);
-      const auto there = static_cast<std::size_t>((y + twin.dy) * width + x + twin.dx);
-      const bool same = picture.fragments[at] == second.fragments[there] &&
-                        (!twin.same_depth || picture.codes[at] == second.codes[there]);
-      tally.moved += same ? 0 : 1;
+  const auto compare = [&](std::int64_t at, std::int64_t there) {
+    const auto one = static_cast<std::size_t>(at);
+    const auto other = static_cast<std::size_t>(there);
+    const bool same = picture.fragments[one] == second.fragments[other] &&
+                      (!twin.same_depth || picture.codes[one] == second.codes[other]);
+    tally.moved += same ? 0 : 1;
+  };
+  const auto size = static_cast<std::int64_t>(picture.fragments.size());
+  for (std::int64_t plane = 0; plane < size; plane += width * height) {
+    for (std::int64_t y = 0; y < height - twin.dy; ++y) {
+      for (std::int64_t x = 0; x < width - twin.dx; ++x) {
+        compare(plane + y * width + x, plane + (y + twin.dy) * width + x + twin.dx);
+      }
     }
   }
 }
@@ -169,7 +199,9 @@ std::vector<std::int32_t> expected_fragments(const Case& made, const Precision& 
   if (!made.triangles.empty()) {
     return define(made, precision).fragments;
   }
-  return made.fragments;
+  std::vector<std::int32_t> expected(plane_of(made), kUncertain);
+  expected.insert(expected.end(), made.fragments.begin(), made.fragments.end());
+  return expected;
 }
 
 std::vector<double> depth_shares(const Case& made, const Precision& precision, const DepthLaw& law,
@@ -209,15 +241,16 @@ Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, c
   if (precision.conservative != Conservative::kOff) {
     return tally;  // the other laws are of centres
   }
+  const std::size_t plane = plane_of(made);
   for (std::size_t at = 0; at < made.fragments.size(); ++at) {
     if (made.fragments[at] != kUncertain) {
       ++tally.samples;
-      count(made.fragments[at], picture.fragments[at], tally);
+      count(made.fragments[at], picture.fragments[plane + at], tally);
     }
   }
   for (std::size_t at = 0; at < made.survivors.size(); ++at) {
     ++tally.tested;
-    tally.mistested += made.survivors[at] == static_cast<std::int32_t>(picture.survivors[at]) ? 0 : 1;
+    tally.mistested += made.survivors[at] == static_cast<std::int32_t>(picture.survivors[plane + at]) ? 0 : 1;
   }
   if (made.twin) {
     judge_twin(*made.twin, picture, *twin, tally);

@@ -18,17 +18,18 @@ struct DepthLaw {
 };
 
 /// What the picture of `made`, and of its twin where it has one, comes to. Pictures must be of the target's
-/// size.
+/// size, with the samples of `precision`.
 Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, const Picture& picture,
             const Picture* twin);
 
 inline constexpr double kNotJudged = -1;
 
-/// How far each pixel's depth is off, as a share of its bound, row by row, or kNotJudged.
+/// How far each sample's depth is off, as a share of its bound, in the order of Picture, or kNotJudged.
 std::vector<double> depth_shares(const Case& made, const Precision& precision, const DepthLaw& law,
                                  const Picture& picture);
 
-/// Fragments that each pixel ought to have, row by row, or kUncertain.
+/// Fragments that each sample ought to have, in the order of Picture, or kUncertain; where it is shorter,
+/// kUncertain for the rest.
 std::vector<std::int32_t> expected_fragments(const Case& made, const Precision& precision);
 
 }  // namespace halfspace::stress

@@ -12,11 +12,12 @@
 
 namespace halfspace::stress {
 
-/// The only target of a frame after it, row by row, row 0 on top.
+/// The only target of a frame after it, row by row, row 0 on top. With several samples a pixel, sample 0 of
+/// all pixels, then sample 1, and so on.
 struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<std::uint32_t> fragments{};  ///< that covered each pixel
+  std::vector<std::uint32_t> fragments{};  ///< that covered each sample
   std::vector<std::uint32_t> survivors{};  ///< of these, the ones that passed the depth test
   std::vector<std::uint32_t> codes{};      ///< stored depth
   bool culls = false;                      ///< fragments that would fail the depth test may be missing

@@ -1,9 +1,10 @@
 /// block_walker: from a triangle to the blocks that it may touch, each with a mask of its tiles.
 ///
 /// It visits the blocks of the bounds, in row order or in another. In each it tests all tiles that the bounds
-/// touch at once, and leaves out those all of whose samples are outside one edge. Of a triangle whose bounds
-/// lie in one block and hold few samples it tests these instead, and leaves out the tiles in which none is
-/// covered: the tests of as many tiles do for it. A block that is left with no tile goes nowhere.
+/// touch at once, and leaves out those that are outside one edge at every corner of the box of their samples.
+/// Of a triangle whose bounds lie in one block and hold few samples it tests these instead, and leaves out
+/// the tiles in which none is covered: the tests of as many tiles do for it. A block that is left with no
+/// tile goes nowhere.
 ///
 /// With one level a step visits a tile instead, and gives out its block with this tile alone. With three a
 /// step first decides all blocks of a superblock, which has as many of them as a block has tiles.
@@ -73,7 +74,12 @@ class TriangleBlocks {
              .z_dy = triangle.plane.dy,
              .z_known = static_cast<std::uint8_t>(triangle.plane.known ? 1 : 0)},
         screen_({triangle.edge[0].c, triangle.edge[1].c, triangle.edge[2].c}, job_.a, job_.b,
-                config.sub_pixel_bits) {}
+                config.sub_pixel_bits) {
+    const SampleBox box = config.samples.box();
+    for (std::size_t i = 0; i < 3; ++i) {
+      to_largest_sample_[i] = to_largest_sample(job_.a[i], job_.b[i], box, config.sub_pixel_bits);
+    }
+  }
 
   [[nodiscard]] int row_tiles() const { return row_tiles_; }
 
@@ -91,7 +97,7 @@ class TriangleBlocks {
     const std::array<std::int64_t, 3> e = screen_.at(square.x * side, square.y * side);
     RowSides found;
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool outside = e[i] + screen_.to_largest(i, side) < 0;
+      const bool outside = e[i] + screen_.to_largest(i, side) + to_largest_sample_[i] < 0;
       found.none_left |= outside && job_.a[i] >= 0;
       found.none_right |= outside && job_.a[i] <= 0;
     }
@@ -149,7 +155,8 @@ class TriangleBlocks {
   int row_tiles_;
   bool few_samples_;
   BlockJob job_;
-  SquareEdges screen_;
+  SquareEdges screen_;                               ///< at the centres of the screen's pixels
+  std::array<std::int64_t, 3> to_largest_sample_{};  ///< from the centre of a pixel
 };
 
 inline constexpr std::uint64_t kAllTiles = ~std::uint64_t{0};

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/float_parts.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -36,7 +37,7 @@ constexpr std::int64_t word_of_unorm(std::int64_t z, int exponent) {
 /// The plane at one tile.
 template <class Word>
 struct TilePlane {
-  Word origin;  ///< at the centre of the tile's first pixel
+  Word origin;  ///< at the sample of the tile's first pixel
   Word dx;      ///< change for a pixel in x
   Word dy;
 
@@ -50,23 +51,24 @@ struct TilePlane {
 /// so depth does not depend on it.
 inline constexpr std::int32_t kAnchorSize = 16;
 
-/// `x` and `y` are the tile's first pixel.
+/// `x` and `y` are the tile's first pixel, `sample` where its samples are. A gradient is for a step of the
+/// sub-pixel grid, on which the sample is: so the word at the first pixel is as exact at any of them.
 template <class Word>
-TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int32_t y, int sub_pixel_bits) {
+TilePlane<Word> tile_plane(const PlaneEquation& plane, std::int32_t x, std::int32_t y, int sub_pixel_bits,
+                           const SamplePosition& sample = {}) {
   using Product = std::conditional_t<sizeof(Word) == sizeof(ShortWord), std::uint64_t, Modular>;
   const auto dx = static_cast<Product>(plane.dx);
   const auto dy = static_cast<Product>(plane.dy);
-  const std::int64_t half_pixel = std::int64_t{1} << (sub_pixel_bits - 1);
-  const auto from_vertex = [&](std::int32_t pixel, std::int32_t vertex) {
+  const auto from_vertex = [&](std::int32_t pixel, int sixteenths, std::int32_t vertex) {
     const std::int64_t anchor = pixel / kAnchorSize * kAnchorSize;
-    return static_cast<Product>((anchor << sub_pixel_bits) + half_pixel - vertex);
+    return static_cast<Product>((anchor << sub_pixel_bits) + sample_way(sixteenths, sub_pixel_bits) - vertex);
   };
   // The word nearest to `value`, which has `fraction` bits more.
   const auto nearest = [](Product value, int fraction) {
     return static_cast<Word>((value + (Product{1} << (fraction - 1))) >> fraction);
   };
-  const Product anchor = (static_cast<Product>(plane.z) << kGradientFraction) + dx * from_vertex(x, plane.x) +
-                         dy * from_vertex(y, plane.y);
+  const Product anchor = (static_cast<Product>(plane.z) << kGradientFraction) +
+                         dx * from_vertex(x, sample.x, plane.x) + dy * from_vertex(y, sample.y, plane.y);
   TilePlane<Word> tile{.origin = nearest(anchor, kGradientFraction),
                        .dx = nearest(dx, kGradientFraction - sub_pixel_bits),
                        .dy = nearest(dy, kGradientFraction - sub_pixel_bits)};

@@ -28,6 +28,7 @@ struct PixelRect {
   std::int32_t x_last = -1;
   std::int32_t y_last = -1;
   [[nodiscard]] bool empty() const { return x_last < x_first || y_last < y_first; }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
 constexpr PixelRect intersect(const PixelRect& l, const PixelRect& r) {
@@ -103,7 +104,7 @@ struct HiZPlane {
 struct SetupTriangle {
   std::array<Edge, 3> edge;
   HiZPlane plane;    ///< at the centre of pixel (0, 0)
-  PixelRect bounds;  ///< pixels whose centres the bounding box, the scissor and the target all hold
+  PixelRect bounds;  ///< pixels that scissor and target hold, and of which the bounding box may hold a sample
   DepthEquation depth;
   std::uint32_t triangle = 0;
   bool front = false;  ///< faces front; only who looks at quads asks
@@ -150,12 +151,16 @@ struct BlockJob {
   }
 };
 
-/// tile_walker -> edge_evaluator: a tile that a triangle may touch.
+/// tile_walker -> edge_evaluator: one sample of each pixel of a tile that a triangle may touch.
+///
+/// A surface of S samples a pixel is S planes of one. The S tiles of a place lie side by side: sample i of
+/// the tile in column x of the screen has tile_x = S x + i, here and in all packets that follow. With one
+/// sample that is the column.
 struct TileJob {
   std::uint8_t slot = 0;     ///< as in BlockJob
   std::uint16_t tile_x = 0;  ///< in tiles
   std::uint16_t tile_y = 0;
-  std::array<std::int64_t, 3> e{};  ///< E at the centre of the tile's top left pixel, fill rule folded in
+  std::array<std::int64_t, 3> e{};  ///< E at the sample of the tile's top left pixel, fill rule folded in
   std::array<std::int32_t, 3> a{};
   std::array<std::int32_t, 3> b{};
   std::uint8_t sure = 0;     ///< 1: every sample of the triangle in it passes, and writes

@@ -37,15 +37,18 @@ Edge edge_opposite(const std::array<ScreenVertex, 3>& v, std::size_t i, int sub_
   return edge;
 }
 
-PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach) {
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach,
+                        const SampleBox& samples) {
   const auto [x_min, x_max] = std::minmax({v[0].x, v[1].x, v[2].x});
   const auto [y_min, y_max] = std::minmax({v[0].y, v[1].y, v[2].y});
-  const std::int32_t half = 1 << (sub_pixel_bits - 1);
-  // centre of pixel p is p * 2^s + half: first = ceil((min - half) / 2^s), last = floor((max - half) / 2^s)
-  return {.x_first = (x_min - reach + half - 1) >> sub_pixel_bits,
-          .y_first = (y_min - reach + half - 1) >> sub_pixel_bits,
-          .x_last = (x_max + reach - half) >> sub_pixel_bits,
-          .y_last = (y_max + reach - half) >> sub_pixel_bits};
+  const std::int32_t to_ceil = (1 << sub_pixel_bits) - 1;
+  const auto way = [sub_pixel_bits](int sixteenths) { return sample_way(sixteenths, sub_pixel_bits); };
+  // the samples of pixel p are at p * 2^s + way: first = ceil((min - most way) / 2^s), last = floor((max -
+  // least way) / 2^s)
+  return {.x_first = (x_min - reach - way(samples.x_most) + to_ceil) >> sub_pixel_bits,
+          .y_first = (y_min - reach - way(samples.y_most) + to_ceil) >> sub_pixel_bits,
+          .x_last = (x_max + reach - way(samples.x_least)) >> sub_pixel_bits,
+          .y_last = (y_max + reach - way(samples.y_least)) >> sub_pixel_bits};
 }
 
 SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTriangle& out) {
@@ -62,7 +65,7 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   if (front ? state.cull_front : state.cull_back) {
     return SetupVerdict::kCulled;
   }
-  const PixelRect box = sample_bounds(v, state.sub_pixel_bits, state.square_reach);
+  const PixelRect box = sample_bounds(v, state.sub_pixel_bits, state.square_reach, state.samples);
   if (box.empty()) {
     return SetupVerdict::kNoSample;
   }

@@ -9,6 +9,7 @@
 #include "halfspace/numerics/depth.hpp"
 #include "halfspace/numerics/fill_rule.hpp"
 #include "halfspace/numerics/line_rule.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/packets.hpp"
 
@@ -31,19 +32,22 @@ struct SetupState {
   bool hi_z = false;                          ///< make HiZPlane too, where the interpolator has a plane
   LineRule line_rule = LineRule::kBresenham;  ///< of thin lines
   int line_width = 1;                         ///< of thin lines, in fragments
+  SampleBox samples{};                        ///< of a pixel
 };
 
 enum class SetupVerdict : std::uint8_t {
   kDrawn,
   kZeroArea,
   kCulled,    ///< faces away
-  kNoSample,  ///< its bounding box holds no pixel centre
+  kNoSample,  ///< its bounding box holds no sample: no pixel has one whose box of samples it meets
   kOutside,   ///< its bounding box misses scissor, viewport or target
 };
 
-/// The pixels whose centres lie in the closed bounding box of the triangle, grown by `reach` sub-pixels on
-/// each side.
-PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach = 0);
+/// The pixels whose box of samples meets the closed bounding box of the triangle, grown by `reach` sub-pixels
+/// on each side: of one sample at the centre, those whose centres lie in it. Every pixel with a covered
+/// sample is among them.
+PixelRect sample_bounds(const std::array<ScreenVertex, 3>& v, int sub_pixel_bits, int reach = 0,
+                        const SampleBox& samples = {});
 
 /// Twice the signed area, positive clockwise on the screen.
 std::int64_t twice_signed_area(const std::array<ScreenVertex, 3>& v);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/walk_order.hpp"
 
 namespace halfspace {
@@ -25,9 +26,10 @@ struct WalkerConfig {
       2;  ///< what a step decides: 1 a tile, 2 the tiles of a block, 3 also the blocks of a superblock
   WalkOrder order = WalkOrder::kRaster;       ///< of the steps
   TileOrder tile_order = TileOrder::kRaster;  ///< of the tiles of a block
+  SamplePattern samples{};
 };
 
-/// Edges by the pixel.
+/// Edges by the pixel, at one place of each: "the sample" of a square of pixels.
 struct SquareEdges {
   std::array<std::int64_t, 3> e{};   ///< at the top left sample
   std::array<std::int64_t, 3> dx{};  ///< change for one pixel
@@ -55,5 +57,19 @@ struct SquareEdges {
     return (std::min<std::int64_t>(dx[i], 0) + std::min<std::int64_t>(dy[i], 0)) * (size - 1);
   }
 };
+
+/// What E changes by from the centre of a pixel to its sample.
+constexpr std::int64_t to_sample(std::int32_t a, std::int32_t b, const SamplePosition& sample,
+                                 int sub_pixel_bits) {
+  return std::int64_t{a} * sample_way(sample.x - kSampleGrid / 2, sub_pixel_bits) +
+         std::int64_t{b} * sample_way(sample.y - kSampleGrid / 2, sub_pixel_bits);
+}
+
+/// To the corner of the box of the samples where E is largest: at no sample is it larger.
+constexpr std::int64_t to_largest_sample(std::int32_t a, std::int32_t b, const SampleBox& box,
+                                         int sub_pixel_bits) {
+  const SamplePosition corner{.x = a > 0 ? box.x_most : box.x_least, .y = b > 0 ? box.y_most : box.y_least};
+  return to_sample(a, b, corner, sub_pixel_bits);
+}
 
 }  // namespace halfspace

@@ -12,7 +12,8 @@
 namespace halfspace {
 
 /// width x height values; each tile of tile_size^2 lies together in row order, tiles in row order. Tiles at
-/// the right and bottom edge are stored whole.
+/// the right and bottom edge are stored whole. With several samples a pixel the tiles of a place lie side by
+/// side, one for each sample, and all are columns of their own (see TileJob).
 ///
 /// As hardware clears by flags, so does the image: each tile has a flag whether it has been touched since the
 /// image was filled, and one that has not is the fill value, whatever its memory holds. So memory and time go
@@ -21,11 +22,12 @@ template <class Value>
 class TiledImage {
  public:
   TiledImage() = default;
-  TiledImage(int width, int height, int tile_size, Value value)
+  TiledImage(int width, int height, int tile_size, Value value, int samples = 1)
       : width_(width),
         height_(height),
         tile_size_(tile_size),
-        tiles_x_((width + tile_size - 1) / tile_size),
+        samples_(samples),
+        tiles_x_((width + tile_size - 1) / tile_size * samples),
         tiles_y_((height + tile_size - 1) / tile_size),
         blank_(static_cast<std::size_t>(tile_size) * tile_size, value),
         values_(unset_array<Value>(tiles() * blank_.size())),
@@ -33,7 +35,7 @@ class TiledImage {
 
   TiledImage(const TiledImage& other)
       : TiledImage(other.width_, other.height_, other.tile_size_,
-                   other.blank_.empty() ? Value{} : other.blank_[0]) {
+                   other.blank_.empty() ? Value{} : other.blank_[0], other.samples_) {
     for (std::size_t i = 0; i < tiles(); ++i) {
       if (other.touched(i)) {
         std::copy_n(other.values(i), blank_.size(), values(i));
@@ -49,6 +51,7 @@ class TiledImage {
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] int tile_size() const { return tile_size_; }
+  [[nodiscard]] int samples() const { return samples_; }
   [[nodiscard]] int tiles_x() const { return tiles_x_; }
   [[nodiscard]] int tiles_y() const { return tiles_y_; }
   [[nodiscard]] bool empty() const { return tiles() == 0; }
@@ -73,12 +76,14 @@ class TiledImage {
     return touched(number) ? values(number) : blank_.data();
   }
 
-  [[nodiscard]] const Value& at(int x, int y) const {
-    return tile(x / tile_size_, y / tile_size_)[in_tile(x, y)];
+  [[nodiscard]] const Value& at(int x, int y, int sample = 0) const {
+    return tile(x / tile_size_ * samples_ + sample, y / tile_size_)[in_tile(x, y)];
   }
-  [[nodiscard]] Value& at(int x, int y) { return tile(x / tile_size_, y / tile_size_)[in_tile(x, y)]; }
+  [[nodiscard]] Value& at(int x, int y, int sample = 0) {
+    return tile(x / tile_size_ * samples_ + sample, y / tile_size_)[in_tile(x, y)];
+  }
 
-  /// Touches no tile where `rect` is the whole image, else those that it changes.
+  /// All samples of the pixels. Touches no tile where `rect` is the whole image, else those that it changes.
   void fill(const PixelRect& rect, Value value) {
     if (rect.x_first == 0 && rect.y_first == 0 && rect.x_last == width_ - 1 && rect.y_last == height_ - 1) {
       std::fill(blank_.begin(), blank_.end(), value);
@@ -89,7 +94,7 @@ class TiledImage {
       return;
     }
     for (int y = rect.y_first / tile_size_; y <= rect.y_last / tile_size_; ++y) {
-      for (int x = rect.x_first / tile_size_; x <= rect.x_last / tile_size_; ++x) {
+      for (int x = rect.x_first / tile_size_ * samples_; x < (rect.x_last / tile_size_ + 1) * samples_; ++x) {
         fill_in_tile(x, y, rect, value);
       }
     }
@@ -130,8 +135,9 @@ class TiledImage {
       return;
     }
     Value* const row = tile(tile_x, tile_y);
-    const int x_first = std::max(rect.x_first - tile_x * tile_size_, 0);
-    const int x_last = std::min(rect.x_last - tile_x * tile_size_, tile_size_ - 1);
+    const int left = tile_x / samples_ * tile_size_;
+    const int x_first = std::max(rect.x_first - left, 0);
+    const int x_last = std::min(rect.x_last - left, tile_size_ - 1);
     const int y_first = std::max(rect.y_first - tile_y * tile_size_, 0);
     const int y_last = std::min(rect.y_last - tile_y * tile_size_, tile_size_ - 1);
     for (int y = y_first; y <= y_last; ++y) {
@@ -142,6 +148,7 @@ class TiledImage {
   int width_ = 0;
   int height_ = 0;
   int tile_size_ = 1;
+  int samples_ = 1;  ///< of a pixel
   int tiles_x_ = 0;
   int tiles_y_ = 0;
   Epoch epoch_ = 1;           ///< of the last fill of the whole image

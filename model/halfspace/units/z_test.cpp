@@ -21,10 +21,12 @@ void for_each_sample(const TileMask& mask, Visit&& visit) {
 
 /// The plane in words of a size; code(word) is the stored code, not yet clamped.
 template <int TileSize, class Word, class Code>
-void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, int sub_pixel_bits,
+void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, const EarlyZState& state,
                        TileCodes<TileSize>& codes, Code&& code) {
-  const TilePlane<Word> tile =
-      tile_plane<Word>(eq.plane, coverage.tile_x * TileSize, coverage.tile_y * TileSize, sub_pixel_bits);
+  const SamplePattern& samples = state.samples;
+  const SamplePosition& sample = samples.at[static_cast<std::size_t>(coverage.tile_x % samples.count)];
+  const TilePlane<Word> tile = tile_plane<Word>(eq.plane, coverage.tile_x / samples.count * TileSize,
+                                                coverage.tile_y * TileSize, state.sub_pixel_bits, sample);
   for_each_sample<TileSize>(coverage.mask, [&](int bit) {
     const auto at = static_cast<std::uint32_t>(bit);
     const std::int64_t stored = code(tile.at(at % TileSize, at / TileSize));
@@ -37,7 +39,7 @@ template <int TileSize>
 void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, const EarlyZState& state,
                        TileCodes<TileSize>& codes) {
   const auto interpolate = [&]<class Word>(Word, auto&& code) {
-    interpolate_plane<TileSize, Word>(eq, coverage, state.sub_pixel_bits, codes, code);
+    interpolate_plane<TileSize, Word>(eq, coverage, state, codes, code);
   };
   if (state.format == DepthFormat::kFloat32) {
     interpolate(LongWord{}, [&](std::int64_t word) {

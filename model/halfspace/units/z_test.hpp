@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "halfspace/numerics/depth.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/lazy_array.hpp"
 #include "halfspace/units/packets.hpp"
@@ -27,6 +28,7 @@ struct EarlyZState {
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
   int sub_pixel_bits = 8;
   int square_reach = 0;  ///< as SetupState has it; not 0 with the barycentric interpolator only
+  SamplePattern samples{};
 };
 
 /// True where a burst has to do with stored depth.

@@ -76,15 +76,17 @@ class BlockWalker {
     /// All of a block, in row order: also those that tile_walker makes of its tiles, later on.
     void show_decisions(const BlockJob& job, std::uint64_t touched) {
       struct Whole {
-        std::uint64_t tiles = 0;
+        std::uint64_t tiles =
+            ~std::uint64_t{0};  ///< those with all samples covered, as far as they were seen
         int row_tiles;
+        int samples;
         void tile(const TileJob& tile_job, bool whole) {
-          tiles |= std::uint64_t{whole}
-                   << (tile_job.tile_y % row_tiles * row_tiles + tile_job.tile_x % row_tiles);
+          const int column = tile_job.tile_x / samples;
+          tiles &= ~(std::uint64_t{!whole} << (tile_job.tile_y % row_tiles * row_tiles + column % row_tiles));
         }
       };
       const int row_tiles = config.block_size / TileSize;
-      Whole whole{.row_tiles = row_tiles};
+      Whole whole{.row_tiles = row_tiles, .samples = config.samples.count};
       tile_walker<TileSize>(job, config, whole);
       for (std::uint64_t left = touched; left != 0; left &= left - 1) {
         const int tile = std::countr_zero(left);

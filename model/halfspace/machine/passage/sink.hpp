@@ -48,7 +48,7 @@ void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y,
     count_samples<TileSize>(tested.passed, surface.survivors.tile(tile_x, tile_y));
   }
   if (draw.sums != nullptr) {
-    count_quads<TileSize>(*draw.sums, tile_x, tile_y, covered);
+    count_quads<TileSize>(*draw.sums, tile_x / draw.early_z.samples.count, tile_y, covered);
   }
   if (draw.keeps_visible) {
     const std::uint32_t shown = draw.is_clear() ? kNothingVisible : draw.first_triangle + triangle;
@@ -66,12 +66,14 @@ void sink(const TileMask& covered, const Tested& tested, int tile_x, int tile_y,
 template <int TileSize, class Show>
 void show_quads(const QuadBurst& burst, const Tested& tested, const std::uint32_t* codes,
                 const SetupTriangle& triangle, const DrawContext& draw, Show&& show) {
+  const int samples = draw.early_z.samples.count;
   std::size_t number = 0;
   for_each_quad<TileSize>(burst, [&](const Quad& quad) {
     QuadEvent event{.draw = draw.draw,
                     .triangle = triangle.triangle,
                     .surface = draw.surface,
-                    .x = static_cast<std::uint32_t>(burst.coverage.tile_x * TileSize + quad.x),
+                    .sample = static_cast<std::uint8_t>(burst.coverage.tile_x % samples),
+                    .x = static_cast<std::uint32_t>(burst.coverage.tile_x / samples * TileSize + quad.x),
                     .y = static_cast<std::uint32_t>(burst.coverage.tile_y * TileSize + quad.y),
                     .front = triangle.front,
                     .mask = quad.mask,

@@ -93,7 +93,7 @@ Case floor_decal(const Precision& precision, std::uint64_t seed) {
     for (std::uint32_t x = 0; x < kSide; ++x) {
       std::int32_t survivors = 1;
       for (const Triangle& t : triangles) {
-        survivors += reference::covers({t[0].position, t[1].position, t[2].position}, list.centre(x, y),
+        survivors += reference::covers({t[0].position, t[1].position, t[2].position}, list.sample_of(x, y),
                                        precision.rule)
                          ? 1
                          : 0;

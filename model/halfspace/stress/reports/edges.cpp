@@ -75,12 +75,12 @@ Case polygon_strip(const Precision& precision, std::uint64_t seed) {
     std::size_t above = 0;
     std::size_t below = 0;
     while (above + 1 < columns[0].size() || below + 1 < columns[1].size()) {
-      const GridPoint a = list.centre(columns[0][above], top);
-      const GridPoint b = list.centre(columns[1][below], bottom);
+      const GridPoint a = list.sample_of(columns[0][above], top);
+      const GridPoint b = list.sample_of(columns[1][below], bottom);
       const bool goes_above =
           below + 1 == columns[1].size() || (above + 1 < columns[0].size() && list.one_in(2));
       const GridPoint c =
-          goes_above ? list.centre(columns[0][++above], top) : list.centre(columns[1][++below], bottom);
+          goes_above ? list.sample_of(columns[0][++above], top) : list.sample_of(columns[1][++below], bottom);
       list.add(list.shuffled({a, b, c}));
     }
     top = bottom;
@@ -104,7 +104,8 @@ Case far_edges(const Precision& precision, std::uint64_t seed) {
     ++n;
     // An edge whose function is up to an eighth of a square pixel for each step at the sample, less than
     // float32 resolves in its products. The sample is not in the middle, where the two sides err alike.
-    const GridPoint sample = list.centre(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
+    const GridPoint sample =
+        list.sample_of(list.between(0, list.size() - 1), list.between(0, list.size() - 1));
     const std::int64_t value = list.between(-list.one() * list.one() / 8, list.one() * list.one() / 8);
     const GridPoint beside{-v * value, u * value};
     const std::int64_t along = (beside.x * dx + beside.y * dy) / (dx * dx + dy * dy);
@@ -166,8 +167,8 @@ Case distant_mesh(const Precision& precision, std::uint64_t seed) {
   constexpr std::int64_t kCells = 8;
   const std::int64_t x = list.between(1, list.size() - 2);
   const std::int64_t y = list.between(1, list.size() - 2);
-  const GridPoint first{list.centre(x, y).x - list.between(1, kStep * kCells - 1),
-                        list.centre(x, y).y - list.between(1, kStep * kCells - 1)};
+  const GridPoint first{list.sample_of(x, y).x - list.between(1, kStep * kCells - 1),
+                        list.sample_of(x, y).y - list.between(1, kStep * kCells - 1)};
   std::vector<GridPoint> vertices;
   for (std::int64_t j = 0; j <= kCells; ++j) {
     for (std::int64_t i = 0; i <= kCells; ++i) {
@@ -204,7 +205,7 @@ Case sixteen_bits(const Precision& precision, std::uint64_t seed) {
   DrawList list(precision, 512, seed);  // 320x240 and more
   list.draw();
   // There a vertex is on a sample.
-  list.add(list.shuffled({list.centre(314, 11), list.centre(14, 200), list.centre(97, 237)}));
+  list.add(list.shuffled({list.sample_of(314, 11), list.sample_of(14, 200), list.sample_of(97, 237)}));
   return list.take_defined();
 }
 

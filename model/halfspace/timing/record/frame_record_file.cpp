@@ -105,13 +105,16 @@ class Reader {
 };
 
 void check_surfaces(const Reader& reader, const FrameRecord& record) {
+  const auto samples = static_cast<std::uint32_t>(record.config.raster.samples);
+  const std::uint32_t columns = 4096 * samples;
   std::uint64_t tiles = 0;
   for (const StreamSurface& surface : record.surfaces) {
     tiles += surface.tiles;
-    if (surface.tiles != 0 && (surface.tiles_x == 0 || surface.tiles % surface.tiles_x != 0 ||
-                               surface.tiles_x > 4096 || surface.tiles / surface.tiles_x > 4096)) {
-      reader.fail(fmt::format("a surface of {} tiles, {} in a row; legal: whole rows, at most 4096 x 4096",
-                              surface.tiles, surface.tiles_x));
+    if (surface.tiles != 0 &&
+        (surface.tiles_x == 0 || surface.tiles % surface.tiles_x != 0 || surface.tiles_x > columns ||
+         surface.tiles_x % samples != 0 || surface.tiles / surface.tiles_x > 4096)) {
+      reader.fail(fmt::format("a surface of {} tiles, {} in a row; legal: whole rows, at most {} x 4096",
+                              surface.tiles, surface.tiles_x, columns));
     }
     if (surface.sample_bytes != 2 && surface.sample_bytes != 4) {
       reader.fail(fmt::format("samples of {} bytes; legal: 2, 4", surface.sample_bytes));
@@ -131,7 +134,7 @@ void check_access(const Reader& reader, const FrameRecord& record, const StreamS
   }
   if (access.touched() == 0 || (access.touched() & ~bands) != 0 ||
       (access.written() & ~access.touched()) != 0 || (access.sure() & ~access.written()) != 0 ||
-      access.words()[1] >> 14 != 0) {
+      access.words()[1] >> 18 != 0) {
     reader.fail(
         fmt::format("a burst that touches bands {:04b}, writes {:04b} and overwrites {:04b}, in bits {:b}",
                     access.touched(), access.written(), access.sure(), access.words()[1]));
@@ -159,6 +162,7 @@ void check(const Reader& reader, const FrameRecord& record) {
   const int tile_size = record.config.tile_walker.tile_size;
   const int most_quads = tile_size * tile_size / 4;
   const int row_tiles = record.config.block_walker.block_size / tile_size;
+  const int most_jobs = row_tiles * row_tiles * record.config.raster.samples;
   std::size_t triangle = 0;
   std::size_t block = 0;
   std::size_t job = 0;
@@ -180,9 +184,8 @@ void check(const Reader& reader, const FrameRecord& record) {
       for (std::uint32_t b = 0; b < packets.triangles[triangle].blocks; ++b, ++block) {
         const int jobs = packets.blocks[block].jobs();
         const int least = record.config.hi_z.enabled ? 0 : 1;
-        if (jobs < least || jobs > row_tiles * row_tiles) {
-          reader.fail(
-              fmt::format("{} tile jobs in a block; legal: {} to {}", jobs, least, row_tiles * row_tiles));
+        if (jobs < least || jobs > most_jobs) {
+          reader.fail(fmt::format("{} tile jobs in a block; legal: {} to {}", jobs, least, most_jobs));
         }
         if (static_cast<std::size_t>(jobs) > packets.jobs.size() - job) {
           reader.fail("more tile jobs in blocks than in the list");

@@ -4,6 +4,8 @@
 
 #include <type_traits>
 
+#include "halfspace/numerics/error.hpp"
+
 namespace halfspace::rtl {
 namespace {
 
@@ -18,6 +20,12 @@ std::string value_text(bool value) { return value ? "1'b1" : "1'b0"; }
 }  // namespace
 
 std::vector<std::string> pipeline_arguments(const Config& config) {
+  if (!sample_pattern(config).is_centre()) {
+    throw OptionError(
+        fmt::format("configuration key 'raster.samples' is {}; legal in the RTL: 1, at the pixel "
+                    "centre",
+                    config.raster.samples));
+  }
   std::vector<std::string> arguments;
   std::vector<std::string> parameters;
 #define NOTHING(...)
