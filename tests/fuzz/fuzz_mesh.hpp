@@ -13,7 +13,9 @@ namespace halfspace::fuzz {
 inline void check_mesh(const Mesh& mesh) {
   std::uint64_t end = 0;
   for (const MeshPart& part : mesh.parts) {
-    if (part.first_index != end || part.index_count == 0 || part.index_count % indices_each(part.primitive) != 0) std::abort();
+    if (part.first_index != end || part.index_count == 0 ||
+        part.index_count % indices_each(part.primitive) != 0)
+      std::abort();
     end += part.index_count;
   }
   if (end != mesh.indices.size() || end == 0) std::abort();
