@@ -53,10 +53,10 @@ def pictures(tools):
 
 
 def area_of(bits):
-    """What the RTL of this precision takes, where docs/hardware.json has it."""
+    """What the weights at one pixel take in the RTL of this precision, where docs/hardware.json has it."""
     rows = json.loads((ROOT / "docs/hardware.json").read_text())["osu018"]
     for row in rows:
-        if row["top"] == "interpolator" and f"bits={bits}" in row["configuration"].lower().split():
+        if row["top"] == "perspective_weights" and row["configuration"] == f"Bits={bits}":
             return f"{row['gates']:,}"
     return "-"
 
@@ -67,7 +67,7 @@ def error(_tools):
     lines = [
         f"{result['samples']:,} pixels of random triangles at each precision; a coordinate from 0 to 1.",
         "",
-        "| bits | worst error | mean error | gates of the RTL (osu018) |",
+        "| bits | worst error | mean error | gates of `perspective_weights` (osu018) |",
         "|---:|---:|---:|---:|",
     ]
     for row in result["bits"]:

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "../line_frames.hpp"
+#include "../result_difference.hpp"
 #include "../triangles.hpp"
 #include "halfspace/config/config.hpp"
 #include "halfspace/core/functional.hpp"
@@ -260,6 +262,23 @@ TEST_CASE("conservative: a square that a triangle fills to its sides") {
   // With half a pixel, those whose corner is within half a pixel of the long side are touched: x + y <= 17.
   CHECK(total_of(fragments_of(corners, conservative_machine(Conservative::kOuter, 128))) ==
         16 * 17 / 2 + 15 + 14);
+}
+
+TEST_CASE("conservative: lines and points are drawn by their centres") {
+  CAPTURE(seed());
+  Random random(seed());
+  const std::uint64_t count = samples(30'000) / 1000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Frame frame = testing::random_lines(random, false);
+    for (Command& command : frame.commands) {
+      if (command.fills_triangles()) {
+        command.polygon_mode = PolygonMode::kLine;
+      }
+    }
+    const FrameResult off = run_functional(frame, conservative_machine(Conservative::kOff, 1));
+    const FrameResult on = run_functional(frame, conservative_machine(Conservative::kOuter, 1));
+    CHECK(testing::result_difference(on, off) == "");
+  }
 }
 
 TEST_CASE("conservative: what it does not go with is refused by name") {

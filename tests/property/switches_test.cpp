@@ -1,6 +1,7 @@
 // What a machine skips changes nothing of the picture: any set of its switches, on any machine.
 #include <catch2/catch.hpp>
 
+#include "../line_frames.hpp"
 #include "../result_difference.hpp"
 #include "halfspace/machine/in_order.hpp"
 #include "hard_frames.hpp"
@@ -16,14 +17,16 @@ constexpr const char* kSwitches[] = {
     "tile_walker.trivial_accept",  "z_cache.compression",        "z_cache.fast_clear",
 };
 
-Frame any_frame(Random& random) {
-  switch (random.between(0, 3)) {
+Frame any_frame(Random& random, const Config& config) {
+  switch (random.between(0, 4)) {
     case 0:
       return random_frame(random);
     case 1:
       return depth_stack(random);
     case 2:
       return touching_planes(random);
+    case 3:
+      return random_lines(random, takes_thin_lines(config));
     default:
       return hard_frame(random);
   }
@@ -56,7 +59,7 @@ TEST_CASE("switches: whatever is skipped, the picture is the same", "[property]"
   const Watch watch{.keep_visible = true};
   for (std::uint64_t left = samples(1'000'000) / kSwitchFrameSamples; left > 0; --left) {
     const Config base = random_config(random);
-    const Frame frame = any_frame(random);
+    const Frame frame = any_frame(random, base);
     const Config config = with_switches(random, base, false);
     const FrameResult all_off = run_in_order(frame, with_switches(random, base, true), watch, nullptr);
     INFO(difference_from_default(config));

@@ -46,7 +46,7 @@ double memory(const std::string& file, Mesh (*parse)(std::span<const std::byte>,
 
 }  // namespace
 
-TEST_CASE("OBJ: memory is within its multiple of the file's size") {
+TEST_CASE("OBJ: memory is within its multiple of the file's size", "[exhaustive]") {
   const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   CHECK(memory(repeated(points + "f 1 2 3\n", "v 1 1 1\n"), parse_obj) < kMostMemory);
   CHECK(memory(repeated(points, "f 1 2 3\n"), parse_obj) < kMostMemory);
@@ -65,7 +65,7 @@ TEST_CASE("OBJ: memory is within its multiple of the file's size") {
   CHECK(memory(parabola, parse_obj) < kMostMemory);
 }
 
-TEST_CASE("PLY: memory is within its multiple of the file's size") {
+TEST_CASE("PLY: memory is within its multiple of the file's size", "[exhaustive]") {
   const std::string faces = "property list uint uchar vertex_indices\n";
   CHECK(memory(byte_list("element tristrips 1\n" + faces, 3), parse_ply) < kMostMemory);
   CHECK(memory(byte_list("element face 1\n" + faces, 1), parse_ply) < kMostMemory);
@@ -89,7 +89,7 @@ TEST_CASE("PLY: memory is within its multiple of the file's size") {
                parse_ply) < kMostMemory);
 }
 
-TEST_CASE("PLY: memory with attributes is within the same multiple") {
+TEST_CASE("PLY: memory with attributes is within the same multiple", "[exhaustive]") {
   const auto parse_all = [](std::span<const std::byte> bytes, std::string_view name) {
     return parse_ply(bytes, name, MeshContent::kAttributes);
   };
@@ -113,7 +113,7 @@ TEST_CASE("PLY: memory with attributes is within the same multiple") {
   CHECK(memory(file, parse_all) < kMostMemory);
 }
 
-TEST_CASE("OBJ: memory with attributes is within the same multiple") {
+TEST_CASE("OBJ: memory with attributes is within the same multiple", "[exhaustive]") {
   const auto parse_all = [](std::span<const std::byte> bytes, std::string_view name) {
     return parse_obj(bytes, name, "/nonexistent", MeshContent::kAttributes);
   };
@@ -125,7 +125,7 @@ TEST_CASE("OBJ: memory with attributes is within the same multiple") {
   CHECK(memory(repeated(points, "f 1 2 3\nusemtl\nf 1 2 3\nusemtl a\n"), parse_all) < kMostMemory);
 }
 
-TEST_CASE("glTF: memory is within its multiple of the file's size") {
+TEST_CASE("glTF: memory is within its multiple of the file's size", "[exhaustive]") {
   const auto of_text = [](const std::string& file) {
     return memory(file, [](std::span<const std::byte> bytes, std::string_view name) {
       return parse_gltf(bytes, name, "/nonexistent");

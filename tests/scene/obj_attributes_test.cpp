@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,17 @@ TEST_CASE("OBJ: texture coordinates and normals of corners, which share position
         std::vector<std::uint32_t>{0, 1, 0, kNoAttribute, kNoAttribute, kNoAttribute, 1, 0, 0});
   CHECK(all.normals[1] == glm::vec3(0, 2, 0));
   CHECK(all.vertex_of == mesh.indices);
+}
+
+TEST_CASE("OBJ: a comment behind a number ends with its line, with attributes and without") {
+  // A statement whose comment ends in a backslash: were it continued, the next vertex would be part of it.
+  for (const std::string statement : {"v 1 1 0 1 1 5# \\\n", "vt 0 1# \\\n", "vn 0 0 1# \\\n"}) {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + statement + "v 2 2 2\nf 1 2 3\n";
+    const std::size_t vertices = statement.starts_with("v ") ? 5 : 4;
+    CAPTURE(statement);
+    CHECK(shaded_obj(text).positions.size() == vertices);
+    CHECK(parse_obj(std::as_bytes(std::span(text)), "obj").positions.size() == vertices);
+  }
 }
 
 TEST_CASE("OBJ: corners of polygons keep their attributes, also of those that repeat a vertex") {

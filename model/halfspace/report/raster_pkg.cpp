@@ -225,8 +225,8 @@ std::string raster_pkg() {
   text += packed_struct<TestedBeat>("tested_beat_t", "early_z -> fragment shader: a beat of a burst");
   text += packed_struct<AttributeQuad>("attribute_quad_t",
                                        "early_z -> interpolator: a quad, an attribute, and their triangle");
-  text += packed_struct<ShadedQuad>("shaded_quad_t",
-                                    "interpolator -> fragment shader: the attribute at the pixels of the quad");
+  text += packed_struct<ShadedQuad>(
+      "shaded_quad_t", "interpolator -> fragment shader: the attribute at the pixels of the quad");
   text +=
       "\n  // stages that count their cycles, and what each of them may spend one on: busy, or a reason to "
       "wait\n";

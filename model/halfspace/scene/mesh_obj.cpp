@@ -190,15 +190,22 @@ class ObjParser {
   /// As to_next_line(), where the line ends in LF, or CR LF, not far from here, and in no \. Most lines do,
   /// and the C library finds characters many at a time.
   bool skip_plain_line() {
+    const std::size_t size = plain_size();
+    if (size == std::string_view::npos) return false;
+    at_ += size + 1;
+    return true;
+  }
+
+  /// Up to the LF of such a line; npos where the rest is none.
+  [[nodiscard]] std::size_t plain_size() const {
     constexpr std::size_t kFar = 256;  // else lines that end in CR would be searched to the end of the file
     const std::string_view near = rest(at_).substr(0, kFar);
     const std::size_t size = near.find('\n');
-    if (size == std::string_view::npos) return false;
+    if (size == std::string_view::npos) return size;
     std::string_view line = near.substr(0, size);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find('\r') != std::string_view::npos || line.find('\\') != std::string_view::npos) return false;
-    at_ += size + 1;
-    return true;
+    const bool plain = line.find('\r') == std::string_view::npos && line.find('\\') == std::string_view::npos;
+    return plain ? size : std::string_view::npos;
   }
 
   void parse_statement() {
@@ -213,11 +220,11 @@ class ObjParser {
       case Statement::kMaterial:
         return parse_material();
       case Statement::kTextureCoordinate:
-        if (attributes_) attributes_->add_uv(rest_of_numbers());
-        return;
+        if (attributes_) return attributes_->add_uv(rest_of_numbers());
+        return pass_numbers();
       case Statement::kNormal:
-        if (attributes_) attributes_->add_normal(rest_of_numbers());
-        return;
+        if (attributes_) return attributes_->add_normal(rest_of_numbers());
+        return pass_numbers();
       case Statement::kLibrary:
         if (attributes_) attributes_->add_libraries(rest_of_words());
         return;
@@ -247,7 +254,11 @@ class ObjParser {
       }
       at_ += size;
     }
-    if (attributes_) attributes_->add_color(builder_.vertex_count(), rest_of_numbers());
+    if (attributes_) {
+      attributes_->add_color(builder_.vertex_count(), rest_of_numbers());
+    } else {
+      pass_numbers();
+    }
     builder_.add_vertex(position);
   }
 
@@ -262,6 +273,12 @@ class ObjParser {
       numbers.push_back(number);
     }
     return numbers;
+  }
+
+  /// Moves as rest_of_numbers() does where that counts: behind a number a comment may begin, and no
+  /// \ continues it.
+  void pass_numbers() {
+    if (at_ != end_ && *at_ != '\n' && plain_size() == std::string_view::npos) rest_of_numbers();
   }
 
   /// The words up to the end of the statement, with one blank between them.

@@ -44,8 +44,9 @@ AtVertices at_vertices(const std::vector<Value>& values, const std::vector<std::
   return found;
 }
 
-/// One triangle of the frame, and all that its pixels need. Lines, points, and triangles that are drawn as
-/// such, have one colour, that of their first vertex, and no light.
+/// One triangle of the frame, and all that its pixels need. Lines, points, triangles that are drawn as such,
+/// and those without area, which conservative rasterization draws, have one colour, that of their first
+/// vertex, and no light.
 struct Visible {
   std::uint32_t triangle;
   bool is_filled;
@@ -129,13 +130,12 @@ class Shader {
     }
     unsigned pixels = 0;
     std::size_t piece = 0;
-    for (unsigned p = first; p < 4 && of.planes.size() != 0; ++p) {
+    for (unsigned p = first; p < 4; ++p) {
       if (quad.triangles[p] != of.triangle) continue;
       const std::size_t its = of.planes.piece_at(at(p).first, at(p).second);
       if (pixels == 0) piece = its;
       pixels |= its == piece ? 1u << p : 0;
     }
-    if (pixels == 0) return 1u << first;
     const auto mask =
         static_cast<std::uint8_t>(pixels & of.planes.mask(piece, quad.x, quad.y));  // else as helpers
     const auto values = [&](const AtVertices& attribute) {
@@ -203,14 +203,16 @@ class Shader {
     const auto [first, command] = *std::prev(first_of_draws_.upper_bound(triangle));
     const Command& draw = frame_.commands[command];
     if (!draw.fills_triangles()) return outline(triangle, draw, triangle - first, command - 1);
-    const FrontEnd front_end(frame_, draw, DepthFormat::kNone, sub_pixel_bits_);
+    const AttributePlanes planes(FrontEnd(frame_, draw, DepthFormat::kNone, sub_pixel_bits_),
+                                 triangle - first, sub_pixel_bits_);
+    if (planes.size() == 0) return outline(triangle, draw, triangle - first, command - 1);
     const std::size_t corner = draw.first_index + std::size_t{3} * (triangle - first);
     const auto& uv_of = attributes_.uv_of.empty() ? attributes_.vertex_of : attributes_.uv_of;
     const auto& normal_of = attributes_.normal_of.empty() ? attributes_.vertex_of : attributes_.normal_of;
     Visible out{.triangle = triangle,
                 .is_filled = true,
                 .draw = &draw,
-                .planes = {front_end, triangle - first, sub_pixel_bits_},
+                .planes = planes,
                 .colors = at_vertices(attributes_.colors, attributes_.vertex_of, corner),
                 .uvs = at_vertices(attributes_.uvs, uv_of, corner),
                 .normals = at_vertices(attributes_.normals, normal_of, corner),

@@ -32,6 +32,10 @@ module block_edge_properties
     .y_i       ('0),
     .advance_i (advance_i),
     .row_end_i (row_end_i),
+    .move_i    ('0),
+    .tile_x_i  ('0),
+    .tile_y_i  ('0),
+    .superblock_i (1'b0),
     .edge_o    (e),
     .a_o       (a),
     .b_o       (b),
@@ -107,7 +111,7 @@ module block_edge_properties
 
     if (loaded_q) begin
       EdgeAtBlock: assert (wide_t'(e) == here_q);
-      EdgeAtRow: assert ((wide_t'(u_dut.row_q) <<< SubPixelBits)
+      EdgeAtRow: assert ((wide_t'(u_dut.gen_raster.row_q) <<< SubPixelBits)
                          + (here_q & ((wide_t'(1) <<< SubPixelBits) - 1)) == row_q);
       Steps: assert (wide_t'(a) == a_q && wide_t'(b) == b_q);
     end

@@ -39,7 +39,7 @@ module block_walker_adders
     BoundsX: assume (triangle_i.x_first <= triangle_i.x_last);
     BoundsY: assume (triangle_i.y_first <= triangle_i.y_last);
 
-    LargestEdge: cover (u_dut.gen_edge[0].u_edge.here_q
+    LargestEdge: cover (u_dut.gen_edge[0].u_edge.gen_raster.here_q
                         == PixelEdgeBits'((Close - 1) >>> SubPixelBits));
   end
 

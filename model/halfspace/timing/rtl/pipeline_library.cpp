@@ -42,10 +42,19 @@ Symbol* symbol(void* library, const fs::path& file, const char* name) {
   return reinterpret_cast<Symbol*>(found);
 }
 
+/// What no RTL does, whichever is built.
+void check_config(const Config& config) {
+  if (config.raster.conservative != Conservative::kOff) {
+    throw OptionError(fmt::format("configuration key 'raster.conservative' is {}; legal for the RTL: off",
+                                  config.raster.conservative == Conservative::kOuter ? "outer" : "inner"));
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config, const fs::path& folder,
                                                  std::uint64_t seed) {
+  check_config(config);
   const std::string wanted = fmt::format("{}", fmt::join(pipeline_arguments(config), " "));
   std::vector<std::string> names;
   for (const fs::path& file : libraries_in(folder)) {

@@ -12,7 +12,8 @@
 namespace halfspace::rtl {
 
 /// The pipeline of `config` from one of the libraries halfspace_rtl_*.so in `folder`. `seed` decides what its
-/// registers hold before reset. Throws InputError that names the folder and what it has when none fits.
+/// registers hold before reset. Throws InputError that names the folder and what it has when none fits, and
+/// OptionError for a configuration that no RTL has.
 [[nodiscard]] std::unique_ptr<VerilatedPipeline> load_pipeline(const Config& config,
                                                                const std::filesystem::path& folder,
                                                                std::uint64_t seed);

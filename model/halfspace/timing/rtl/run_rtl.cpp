@@ -56,13 +56,6 @@ void check_depths(const Frame& frame) {
   }
 }
 
-void check_config(const Config& config) {
-  if (config.raster.conservative != Conservative::kOff) {
-    throw OptionError(fmt::format("configuration key 'raster.conservative' is {}; legal for the RTL: off",
-                                  config.raster.conservative == Conservative::kOuter ? "outer" : "inner"));
-  }
-}
-
 /// setup of the RTL has no line_setup. Rectangular lines and points are triangles when they get there.
 void check_thin_lines(const Frame& frame) {
   for (std::size_t i = 0; i < frame.commands.size(); ++i) {
@@ -127,7 +120,6 @@ class RtlRun final : public PortListener {
 RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions& options,
                   VerilatedPipeline& pipeline) {
   check_options(options);
-  check_config(config);
   check_depths(frame);
   check_thin_lines(frame);
   RtlResult result;
