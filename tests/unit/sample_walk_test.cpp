@@ -52,6 +52,9 @@ class Walked {
   Walked(const ScreenTriangle& triangle, const WalkerConfig& config)
       : grid_(grid(triangle)), config_(config), counts_(samples()) {}
 
+  /// A step that only leads the walk.
+  void pass() {}
+
   void block(const BlockJob& job, std::uint64_t touched) {
     CHECK((job.tiles & ~touched) == 0);
     tile_walker<TileSize>(job, config_, *this);
@@ -140,6 +143,17 @@ class Walked {
   std::tuple<int, int, int> last_{-1, -1, config_.samples.count - 1};
 };
 
+/// Any legal walk: the led ones need the reject test, and blocks of up to two levels.
+void draw_walk(Random& random, WalkerConfig& config) {
+  config.levels = static_cast<int>(random.between(1, 3));
+  config.order = static_cast<WalkOrder>(random.between(0, 5));
+  config.tile_order = static_cast<TileOrder>(random.between(0, 3));
+  if (config.levels == 3 || !config.trivial_reject) {
+    config.levels = config.trivial_reject ? config.levels : static_cast<int>(random.between(1, 2));
+    config.order = is_led(config.order) ? WalkOrder::kRaster : config.order;
+  }
+}
+
 template <int TileSize>
 bool check_triangle(Random& random) {
   WalkerConfig config{.sub_pixel_bits = static_cast<int>(random.between(4, 8)),
@@ -148,6 +162,7 @@ bool check_triangle(Random& random) {
                       .trivial_accept = random.between(0, 3) != 0,
                       .sample_reject = false,
                       .samples = random_pattern(random)};
+  draw_walk(random, config);
   const ScreenTriangle triangle = random_triangle(random, config.sub_pixel_bits);
   const SetupState state{.sub_pixel_bits = config.sub_pixel_bits,
                          .bounds = {.x_last = kSide - 1, .y_last = kSide - 1},
