@@ -143,6 +143,11 @@ study-traversal: release-program $(PLOT_TOOLS) ## Run every walk of block_walker
 	tools/write_traversal.py --captured $(CAPTURED)
 	.venv/bin/python tools/plot_traversal.py out/traversal/traversal.json docs/images/traversal.png
 
+.PHONY: study-samples
+study-samples: release-program $(PLOT_TOOLS) ## Compare pictures of few samples a pixel with one of very many; write docs/guides/multisampling.md's tables and picture.
+	.venv/bin/python tools/write_samples.py --captured $(CAPTURED)
+	.venv/bin/python tools/plot_samples.py out/samples/samples.json docs/images/samples.png
+
 .PHONY: study-precision-gates
 study-precision-gates: $(PYTHON_TOOLS) ## Synthesize these arithmetics, as far as docs/precision.json has no figures of them; takes half an hour in all.
 	.venv/bin/python rtl/synth_study.py --json docs/precision.json

@@ -118,3 +118,29 @@ TEST_CASE("samples: what has one sample a pixel refuses more by name") {
                 {"'raster.samples' is 4", ("legal with " + name + ": 1").c_str()});
   }
 }
+
+TEST_CASE("supersampling: results are of the larger frame, pictures of the frame's size") {
+  const Place place;
+  const fs::path out = place.path / "out";
+  for (const std::string& more : {std::string(" --filter tent"), std::string(" --reference barycentric"),
+                                  std::string(" --fidelity recurrence")}) {
+    REQUIRE(place.run("run " + kCube + " --supersample 2 --out " + out.string() + more).status == 0);
+    CHECK(halfspace::read_npy(out / "fragments0.npy").shape == std::vector<std::uint64_t>{1000, 1000});
+    CHECK(read_stats(out)["frame"]["magnified"] == 2);
+    for (const char* picture : {"shaded0.png", "depth0.png", "overdraw0.png", "quads0.png"}) {
+      // Width and height stand behind the signature and the head of the first chunk, big-endian.
+      const std::string png = slurp(out / picture);
+      CHECK(png.substr(16, 8) == std::string("\0\0\x01\xF4\0\0\x01\xF4", 8));
+    }
+  }
+}
+
+TEST_CASE("supersampling: what has no meaning is refused") {
+  const Place place;
+  const std::string run = "run " + kCube;
+  check_error(place.run(run + " --supersample 17"), {"17", "1 to 16"});
+  check_error(place.run(run + " --filter box"), {"--filter", "--supersample"});
+  check_error(place.run(run + " --supersample 2 --filter box"), {"--filter is 'box'", "legal: with --out"});
+  check_error(place.run("run " + scene("cc0_truck.ptf.xz") + " --supersample 16"),
+              {"a side of target 0 is 30720", "legal: at most 16384"});
+}

@@ -16,6 +16,7 @@
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_reference.hpp"
 #include "halfspace/cli/run_table.hpp"
+#include "halfspace/cli/supersample_options.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
@@ -49,6 +50,7 @@ struct RunCommand {
   bool tiles = false;
   bool no_pictures = false;
   std::string interpolation;
+  SupersampleOptions supersample;
 
   [[nodiscard]] bool wants_pictures() const { return !out.empty() && !no_pictures; }
   /// Only pictures show attributes.
@@ -91,6 +93,17 @@ Interpolation interpolation_of(const RunCommand& command, const Frame& frame) {
   return std::ranges::find(kInterpolations, command.interpolation, &InterpolationName::name)->value;
 }
 
+PictureOptions picture_options(const RunCommand& command, const Frame& frame) {
+  return {.interpolation = interpolation_of(command, frame), .filter = command.supersample.picture_filter()};
+}
+
+/// As large as they are drawn.
+std::vector<Frame> frames_of(const RunCommand& command) {
+  std::vector<Frame> frames = command.input.frames(command.content());
+  command.supersample.apply(frames, command.wants_pictures());
+  return frames;
+}
+
 /// Throws OptionError where a mesh would be shaded at other samples than the centres.
 void check_shading(const RunCommand& command, const Frame& frame, const Config& config) {
   if (frame.attributes != nullptr && command.wants_pictures()) {
@@ -130,7 +143,7 @@ void check_reference(const RunCommand& options) {
     if (given) {
       throw OptionError(
           fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
-                      "--no-pictures, --interpolation, and the camera of a mesh",
+                      "--no-pictures, --interpolation, --supersample, --filter, and the camera of a mesh",
                       options.reference, name));
     }
   }
@@ -179,13 +192,13 @@ ExitStatus run_command(const RunCommand& command) {
     check_reference(command);
     const Config config = command.machine.config(Samples::kAny);
     require_centre(config, "--reference");
-    Frame frame = whatif::join(command.input.frames(command.content()));
-    const Interpolation interpolation = interpolation_of(command, frame);
+    Frame frame = whatif::join(frames_of(command));
+    const PictureOptions picture = picture_options(command, frame);
     run_reference({.method = command.reference,
                    .out = command.out,
                    .quads = command.quads,
                    .pictures = !command.no_pictures,
-                   .interpolation = interpolation},
+                   .picture = picture},
                   std::move(frame), config);
     return ExitStatus::kDone;
   }
@@ -202,10 +215,10 @@ ExitStatus run_command(const RunCommand& command) {
     require_centre(config, "--tile-jobs");
   }
   const whatif::WhatIf what_if = command.what_if.what_if();
-  std::vector<Frame> frames = command.input.frames(command.content());
+  std::vector<Frame> frames = frames_of(command);
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
-  const Interpolation interpolation = interpolation_of(command, frame);
+  const PictureOptions picture = picture_options(command, frame);
   check_shading(command, frame, config);
   std::optional<OutputFolder> folder;
   Recorder::Options record;
@@ -244,7 +257,7 @@ ExitStatus run_command(const RunCommand& command) {
     agree = !without.rtl || without.rtl->different == 0;
   }
   if (folder) {
-    write_result_files(*folder, frame, config, fidelity, options.stalls, result, report, interpolation);
+    write_result_files(*folder, frame, config, fidelity, options.stalls, result, report, picture);
     folder->commit();
   }
   agree = print_result(frame, result) && agree;
@@ -286,6 +299,7 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--interpolation", options->interpolation,
                    "how the shaded picture of a mesh interpolates its attributes (default: perspective)")
       ->check(one_of_table(kInterpolations, &InterpolationName::name));
+  options->supersample.add_to(*command);
   command
       ->add_option(
           "--quad-merging", options->quad_merging,

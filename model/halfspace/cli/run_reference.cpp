@@ -184,7 +184,8 @@ class ResultBuilder final : public reference::Observer {
   std::vector<bool> depth_written_;  ///< by surface: a draw so far may have
 };
 
-void write_colors(const std::filesystem::path& path, const reference::Surface& surface) {
+void write_colors(const std::filesystem::path& path, const reference::Surface& surface, int times,
+                  PictureFilter filter) {
   Picture picture(static_cast<int>(surface.width), static_cast<int>(surface.height));
   for (std::size_t i = 0; i < surface.colors.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -193,7 +194,7 @@ void write_colors(const std::filesystem::path& path, const reference::Surface& s
       picture.pixels[i][k] = static_cast<std::uint8_t>(std::lround(255 * value));
     }
   }
-  write_png(path, picture);
+  write_png(path, times == 1 ? picture : shrink(picture, times, filter));
 }
 
 void print_table(const Frame& frame, const RunResult& result) {
@@ -238,11 +239,12 @@ void run_reference(const ReferenceRequest& request, Frame frame, const Config& c
     for (const reference::Surface& surface : drawn) {
       if (pictures && !surface.colors.empty()) {
         const std::string label = surface_label(builder.result.frame, surface.index);
-        write_colors(folder->file(fmt::format("colors{}.png", label)), surface);
+        write_colors(folder->file(fmt::format("colors{}.png", label)), surface, frame.magnified,
+                     request.picture.filter);
       }
     }
     write_result_files(*folder, frame, config, Fidelity::kFunctional, {}, builder.result, std::nullopt,
-                       request.interpolation);
+                       request.picture);
     folder->commit();
   }
   print_table(frame, builder.result);

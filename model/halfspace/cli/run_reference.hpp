@@ -5,8 +5,8 @@
 #include <string>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/report/result_files.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 
 namespace halfspace {
 
@@ -15,7 +15,7 @@ struct ReferenceRequest {
   std::string out;     ///< folder for results; empty: none
   bool quads = false;  ///< write quads.npy
   bool pictures = true;
-  Interpolation interpolation = Interpolation::kPerspective;  ///< of the shaded picture
+  PictureOptions picture;
 };
 
 void add_reference_option(CLI::App& command, std::string& method);

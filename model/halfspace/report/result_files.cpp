@@ -60,7 +60,7 @@ std::string surface_label(const FrameResult& result, std::size_t number) {
 
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
                         const StallPlan& stalls, const RunResult& result,
-                        const std::optional<WhatIfReport>& what_if, Interpolation interpolation) {
+                        const std::optional<WhatIfReport>& what_if, const PictureOptions& pictures) {
   for (std::size_t i = 0; i < result.frame.surfaces.size(); ++i) {
     const Surface& surface = result.frame.surfaces[i];
     if (surface.codes.empty()) {
@@ -71,18 +71,21 @@ void write_result_files(OutputFolder& folder, const Frame& frame, const Config& 
     if (surface.sums.empty()) {
       continue;  // no pictures asked for
     }
-    const auto picture = [&](const char* kind) { return folder.file(fmt::format("{}{}.png", kind, label)); };
-    write_png(picture("shaded"),
-              frame.attributes ? shade(frame, result.frame, i, config.raster.sub_pixel_bits, interpolation)
-                               : shaded_picture(frame, result.frame, i));
+    const auto write = [&](const char* kind, const Picture& picture) {
+      write_png(folder.file(fmt::format("{}{}.png", kind, label)),
+                frame.magnified == 1 ? picture : shrink(picture, frame.magnified, pictures.filter));
+    };
+    write("shaded", frame.attributes
+                        ? shade(frame, result.frame, i, config.raster.sub_pixel_bits, pictures.interpolation)
+                        : shaded_picture(frame, result.frame, i));
     if (!surface.target) {
-      write_png(picture("depth"), depth_picture(surface));
+      write("depth", depth_picture(surface));
     }
-    write_png(picture("overdraw"), overdraw_picture(surface));
+    write("overdraw", overdraw_picture(surface));
     if (!result.reference) {  // a reference has no tiles
-      write_png(picture("tiles"), tile_picture(surface, config.tile_walker.tile_size));
+      write("tiles", tile_picture(surface, config.tile_walker.tile_size));
     }
-    write_png(picture("quads"), quad_picture(surface));
+    write("quads", quad_picture(surface));
   }
   const std::filesystem::path stats = folder.file(kStatsFile);
   write_stats(stats, frame, config, fidelity, stalls, result, what_if, folder.files());

@@ -12,6 +12,7 @@
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/shade/attribute_planes.hpp"
+#include "halfspace/shade/picture_filter.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 
 namespace halfspace {
@@ -20,13 +21,17 @@ namespace halfspace {
 /// "_target" and that of a target without depth.
 std::string surface_label(const FrameResult& result, std::size_t number);
 
+/// How pictures are made.
+struct PictureOptions {
+  Interpolation interpolation = Interpolation::kPerspective;  ///< of attributes (shade/shader.hpp)
+  PictureFilter filter = PictureFilter::kBox;                 ///< of a frame that is magnified
+};
+
 /// Writes depth<S>.npy, fragments<S>.npy and survivors<S>.npy of every surface, shaded<S>.png, depth<S>.png,
 /// overdraw<S>.png, tiles<S>.png and quads<S>.png where the run kept sums, and stats.json. S is its label;
-/// what has no depth has no depth<S>. The shaded
-/// picture of a frame with attributes interpolates them so (shade/shader.hpp). Throws InputError.
+/// what has no depth has no depth<S>. Throws InputError.
 void write_result_files(OutputFolder& folder, const Frame& frame, const Config& config, Fidelity fidelity,
                         const StallPlan& stalls, const RunResult& result,
-                        const std::optional<WhatIfReport>& what_if,
-                        Interpolation interpolation = Interpolation::kPerspective);
+                        const std::optional<WhatIfReport>& what_if, const PictureOptions& pictures);
 
 }  // namespace halfspace

@@ -121,7 +121,8 @@ Json frame_json(const Frame& frame, const FrameResult& result, bool of_reference
                {"commands", frame.commands.size()},
                {"draws", result.draws.size()},
                {"draws_not_filled", result.draws_not_filled},
-               {"depth_clears", result.clears}};
+               {"depth_clears", result.clears},
+               {"magnified", frame.magnified}};
   if (!of_reference) {
     json["flushed_lines"] = result.flushed_lines;
     json["flushed_bytes"] = result.flushed_bytes;

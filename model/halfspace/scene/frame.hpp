@@ -135,6 +135,7 @@ struct Frame {
   std::string meta;                    ///< JSON for people; nothing in it is needed to rasterize
   std::vector<std::string> left_out;   ///< what of the input is not in the frame: "free-form curves (3)"
   std::vector<std::string> cameras;    ///< names of the cameras that stand in the mesh's file
+  int magnified = 1;  ///< times as large on a side as its pictures will be (scene/magnify.hpp)
   /// Of the corners of its triangles (scene/mesh_attributes.hpp), where it is one mesh that has them.
   std::shared_ptr<const FrameAttributes> attributes;
 };
