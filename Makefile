@@ -6,6 +6,7 @@ PYTHON_TOOLS := .venv/.installed
 PLOT_TOOLS := .venv/.plot_installed
 PROVE_TOOLS := .venv/.prove_installed
 READ_TOOLS := .venv/.read_installed
+GALLERY_TOOLS := .venv/.gallery_installed
 
 .DEFAULT_GOAL := help
 
@@ -23,7 +24,7 @@ test: release debug ## Install what is missing, build, and run the tests.
 	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis|formal' --output-on-failure -j 2
 
 .PHONY: lint
-lint: build/release/build.ninja $(PYTHON_TOOLS) $(PROVE_TOOLS) ## Look at layout and static analysis, synthesize the RTL, and prove it in part.
+lint: build/release/build.ninja $(PYTHON_TOOLS) $(PROVE_TOOLS) $(GALLERY_TOOLS) ## Look at layout and static analysis, synthesize the RTL, and prove it in part.
 	ctest --test-dir $(BUILD) -L 'lint|synthesis|formal' --output-on-failure -j 2
 
 .PHONY: test-slow
@@ -148,6 +149,11 @@ study-samples: release-program $(PLOT_TOOLS) ## Compare pictures of few samples 
 	.venv/bin/python tools/write_samples.py --captured $(CAPTURED)
 	.venv/bin/python tools/plot_samples.py out/samples/samples.json docs/images/samples.png
 
+.PHONY: gallery
+gallery: release-program $(GALLERY_TOOLS) ## Run every method and draw it; write docs/guides/gallery.md, its pictures and out/gallery/index.html.
+	.venv/bin/python tools/gallery/build.py
+	tools/gallery/check.py --html out/gallery/index.html
+
 .PHONY: study-precision-gates
 study-precision-gates: $(PYTHON_TOOLS) ## Synthesize these arithmetics, as far as docs/precision.json has no figures of them; takes half an hour in all.
 	.venv/bin/python rtl/synth_study.py --json docs/precision.json
@@ -181,6 +187,11 @@ $(PLOT_TOOLS): tools/requirements-plot.txt | packages
 $(READ_TOOLS): tools/requirements-read.txt | packages
 	/usr/bin/python3 -m venv .venv
 	.venv/bin/pip install --quiet --requirement $<
+	touch $@
+
+$(GALLERY_TOOLS): tools/requirements-gallery.txt | packages
+	/usr/bin/python3 -m venv .venv
+	.venv/bin/pip install --quiet --only-binary :all: --requirement $<
 	touch $@
 
 # The solvers, beside Yosys of $(PYTHON_TOOLS).

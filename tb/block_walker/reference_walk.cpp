@@ -63,7 +63,7 @@ class StepSink {
     }
     steps_.push_back(step);
   }
-  void pass() {
+  void pass(const GridPlace& /*cell*/, int /*side*/) {
     BlockStep step{.job = {}, .wide = wide_, .tall = tall_, .pass = true};
     for (std::size_t i = 0; i < 3; ++i) {
       step.job.a[i] = triangle_.edge[i].a;

@@ -173,7 +173,7 @@ class HiZMaker {
           jobs.push_back(job);
         }
       }
-      static void pass() {}
+      static void pass(const GridPlace& /*cell*/, int /*side*/) {}
     };
     Sink sink;
     block_walker<TileSize>(triangle, walker(), 0, sink);

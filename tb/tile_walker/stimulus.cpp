@@ -131,7 +131,7 @@ std::vector<BlockJob> block_jobs(std::span<const SetupTriangle> triangles, const
         jobs.push_back(job);
       }
     }
-    static void pass() {}
+    static void pass(const GridPlace& /*cell*/, int /*side*/) {}
   };
   const WalkerConfig walker{.sub_pixel_bits = sizes.sub_pixel_bits, .block_size = sizes.block_size};
   Sink sink;

@@ -168,7 +168,7 @@ class Reference {
     packets[HALFSPACE_BLOCK_JOB].push_back(join(machine_.widths, job));
     tile_walker<TileSize>(job, machine_.walker(), *this);
   }
-  static void pass() {}
+  static void pass(const GridPlace& /*cell*/, int /*side*/) {}
   void tile(const TileJob& job, bool /*whole*/) {
     packets[HALFSPACE_TILE_JOB].push_back(join(machine_.widths, job));
     const Coverage coverage = edge_evaluator<TileSize>(job, machine_.widths.SubPixelBits);

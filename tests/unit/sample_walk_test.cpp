@@ -53,7 +53,7 @@ class Walked {
       : grid_(grid(triangle)), config_(config), counts_(samples()) {}
 
   /// A step that only leads the walk.
-  void pass() {}
+  void pass(const GridPlace& /*cell*/, int /*side*/) {}
 
   void block(const BlockJob& job, std::uint64_t touched) {
     CHECK((job.tiles & ~touched) == 0);

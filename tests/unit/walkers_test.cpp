@@ -33,7 +33,7 @@ struct Recorded {
     blocks.push_back({job, touched});
     tile_walker<TileSize>(job, config, *this);
   }
-  void pass() { ++passes; }
+  void pass(const GridPlace& /*cell*/, int /*side*/) { ++passes; }
   void tile(const TileJob& job, bool whole) { tiles.emplace_back(job, whole); }
 };
 

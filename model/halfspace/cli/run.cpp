@@ -11,16 +11,19 @@
 
 #include "halfspace/cli/commands.hpp"
 #include "halfspace/cli/exit_status.hpp"
+#include "halfspace/cli/frame_time.hpp"
 #include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/options.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_reference.hpp"
 #include "halfspace/cli/run_table.hpp"
 #include "halfspace/cli/supersample_options.hpp"
+#include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/report/result_files.hpp"
+#include "halfspace/report/step_recorder.hpp"
 #include "halfspace/report/tile_job_file.hpp"
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/report/what_if.hpp"
@@ -48,6 +51,8 @@ struct RunCommand {
   RtlOptions rtl;
   bool quads = false;
   bool tiles = false;
+  bool steps = false;
+  int timed = 0;
   bool no_pictures = false;
   std::string interpolation;
   SupersampleOptions supersample;
@@ -117,6 +122,8 @@ void check_fidelity(Fidelity fidelity, const RunCommand& options) {
   require(fidelity, options.threads.count > 1, "--threads above 1", &FidelityInfo::threads);
   require(fidelity, !options.stalls.stalls.empty(), "--stall", &FidelityInfo::packets);
   require(fidelity, !options.stalls.seed.empty(), "--seed", &FidelityInfo::packets);
+  // As the core, the recorder needs units that work in order.
+  require(fidelity, options.steps, "--steps", &FidelityInfo::core);
   require(fidelity, options.timeline.wanted, "--timeline", &FidelityInfo::timeline);
   require(fidelity, !options.vcd.empty(), "--vcd", &FidelityInfo::vcd);
   options.rtl.check(fidelity);
@@ -131,6 +138,7 @@ void check_reference(const RunCommand& options) {
                                     {!options.stalls.stalls.empty(), "--stall"},
                                     {!options.stalls.seed.empty(), "--seed"},
                                     {options.tiles, "--tiles"},
+                                    {options.steps, "--steps"},
                                     {!options.tile_jobs.empty(), "--tile-jobs"},
                                     {options.timeline.wanted, "--timeline"},
                                     {!options.vcd.empty(), "--vcd"},
@@ -141,10 +149,10 @@ void check_reference(const RunCommand& options) {
                                     {rtl.every_cycle, "--rtl-every-cycle"},
                                     {options.what_if.what_if().any(), "a what-if"}}) {
     if (given) {
-      throw OptionError(
-          fmt::format("--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
-                      "--no-pictures, --interpolation, --supersample, --filter, and the camera of a mesh",
-                      options.reference, name));
+      throw OptionError(fmt::format(
+          "--reference is '{}', given with {}; legal with it: --config, --set, --out, --quads, "
+          "--no-pictures, --time, --interpolation, --supersample, --filter, and the camera of a mesh",
+          options.reference, name));
     }
   }
 }
@@ -175,6 +183,29 @@ class RunObserver final : public Recorder {
   std::optional<TileJobWriter> jobs_;
 };
 
+/// What draws in runs of this fidelity, in words.
+std::string engine_text(Fidelity fidelity, Core core) {
+  return info(fidelity).core ? fmt::format("{} on the {} core", info(fidelity).name,
+                                           kCoreName[static_cast<std::size_t>(core)])
+                             : std::string(info(fidelity).name);
+}
+
+/// Times more runs of the frame, which keep nothing beside the image.
+void time_runs(const RunCommand& command, Fidelity fidelity, const Frame& frame, const Config& config,
+               const RunOptions& shown) {
+  if (command.timed == 0) {
+    return;
+  }
+  RunOptions options = shown;
+  options.cycle_observer = nullptr;
+  options.quad_merging.reset();
+  options.vcd.clear();
+  options.wave.clear();
+  options.watch = {.count_pixels = false, .core = shown.watch.core, .threads = shown.watch.threads};
+  const Core core = run(fidelity, frame, config, options).frame.core;  // and warms caches and page tables
+  print_time(command.timed, engine_text(fidelity, core), [&] { run(fidelity, frame, config, options); });
+}
+
 /// The same run of the frame as it is, for its work alone.
 RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& with) {
   RunObserver observer(frame, config, {}, "");
@@ -198,6 +229,7 @@ ExitStatus run_command(const RunCommand& command) {
                    .out = command.out,
                    .quads = command.quads,
                    .pictures = !command.no_pictures,
+                   .timed = command.timed,
                    .picture = picture},
                   std::move(frame), config);
     return ExitStatus::kDone;
@@ -237,15 +269,24 @@ ExitStatus run_command(const RunCommand& command) {
     options.cycle_observer = &timeline.emplace(folder->file(kTimelineFile), frame, config, choice);
   }
   RunObserver observer(frame, config, record, command.tile_jobs);
+  std::optional<StepRecorder> steps;
+  std::optional<ObserverPair> both;
+  if (command.steps) {
+    steps.emplace(config, folder->file("triangles.npy"), folder->file("steps.npy"));
+    both.emplace(observer, *steps);
+  }
   const bool pictures = command.wants_pictures();
   options.watch = {.keep_visible = pictures,
                    .count_pixels = folder.has_value(),
                    .keep_sums = pictures,
-                   .observer = &observer,
+                   .observer = both ? static_cast<PacketObserver*>(&*both) : &observer,
                    .core = command.core.core(),
                    .threads = command.threads.count};
   const RunResult result = run(fidelity, frame, config, options);
   observer.finish();
+  if (steps) {
+    steps->finish();
+  }
   if (timeline) {
     timeline->finish(result.cycles->cycles);
   }
@@ -264,6 +305,7 @@ ExitStatus run_command(const RunCommand& command) {
   if (report) {
     print_what_if(*report);
   }
+  time_runs(command, fidelity, frame, config, options);
   if (folder) {
     fmt::print("  results in {}\n", command.out);
   }
@@ -293,6 +335,11 @@ void add_run_command(CLI::App& app, ExitStatus& status) {
   command->add_flag("--quads", options->quads, "record every quad in quads.npy")->needs(out);
   command->add_flag("--tiles", options->tiles, "record every decision of the walker in tiles.npy")
       ->needs(out);
+  command
+      ->add_flag("--steps", options->steps,
+                 "record every triangle at setup and every step of its walk in triangles.npy and steps.npy")
+      ->needs(out);
+  add_time_option(*command, options->timed);
   options->timeline.add_to(*command, out);
   command->add_flag("--no-pictures", options->no_pictures, "leave out the pictures")->needs(out);
   command

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "halfspace/cli/frame_time.hpp"
 #include "halfspace/cli/known_words.hpp"
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_table.hpp"
@@ -248,6 +249,8 @@ void run_reference(const ReferenceRequest& request, Frame frame, const Config& c
     folder->commit();
   }
   print_table(frame, builder.result);
+  print_time(request.timed, fmt::format("the reference {}", request.method),
+             [&] { (void)reference::rasterize(frame, options, nullptr); });
   if (folder) {
     fmt::print("  results in {}\n", request.out);
   }

@@ -15,6 +15,7 @@ struct ReferenceRequest {
   std::string out;     ///< folder for results; empty: none
   bool quads = false;  ///< write quads.npy
   bool pictures = true;
+  int timed = 0;  ///< passes more, to know the time of one
   PictureOptions picture;
 };
 

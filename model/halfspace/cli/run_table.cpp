@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -121,6 +122,11 @@ bool print_result(const Frame& frame, const RunResult& result) {
     print_quad_merging(*result.quad_merging);
   }
   return !result.rtl || print_report(*result.rtl);
+}
+
+void print_frame_time(double median, int passes, const std::string& by) {
+  row("time", static_cast<std::uint64_t>(std::llround(1e6 * median)),
+      fmt::format("ns a frame, the median of {} passes of {}", passes, by));
 }
 
 void print_what_if(const WhatIfReport& report) {

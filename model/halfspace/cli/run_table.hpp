@@ -16,6 +16,9 @@ std::string surfaces_text(const FrameResult& result);
 /// Prints the table of a run. Returns whether RTL and model agree, where there is RTL.
 bool print_result(const Frame& frame, const RunResult& result);
 
+/// Prints how long a frame takes: the median of `passes` in milliseconds, and what draws it.
+void print_frame_time(double median, int passes, const std::string& by);
+
 /// Prints what was changed, and the work without and with it.
 void print_what_if(const WhatIfReport& report);
 

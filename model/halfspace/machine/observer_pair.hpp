@@ -33,6 +33,9 @@ class ObserverPair final : public PacketObserver {
   void block_walked(const BlockJob& job, std::uint64_t touched) override {
     show(&PacketObserver::wants_walk, [&](PacketObserver& observer) { observer.block_walked(job, touched); });
   }
+  void walk_led(const GridPlace& pixel, int side) override {
+    show(&PacketObserver::wants_walk, [&](PacketObserver& observer) { observer.walk_led(pixel, side); });
+  }
   void hi_z_decided(const BlockJob& block, std::uint64_t rejected) override {
     show(&PacketObserver::wants_walk,
          [&](PacketObserver& observer) { observer.hi_z_decided(block, rejected); });

@@ -10,6 +10,7 @@
 #include "halfspace/units/packets.hpp"
 #include "halfspace/units/setup.hpp"
 #include "halfspace/units/tile_walker.hpp"
+#include "halfspace/units/walk_order.hpp"
 
 namespace halfspace {
 
@@ -45,7 +46,8 @@ struct SetupEvent {
   std::uint32_t triangle = 0;
   std::uint32_t surface = kNoSurface;
   SetupVerdict verdict = SetupVerdict::kDrawn;
-  const SetupTriangle* drawn = nullptr;  ///< where it is drawn; only during the call
+  const ScreenTriangle* screen = nullptr;  ///< as it came; only during the call
+  const SetupTriangle* drawn = nullptr;    ///< where it is drawn; only during the call
 };
 
 /// Sees the packets of a stage in order; quads may come later than the decisions and jobs that led to them.
@@ -64,6 +66,8 @@ class PacketObserver {
   /// that they touch, of which job.tiles are left; and what hi_z then rejects of these.
   virtual void set_up(const SetupEvent&) {}
   virtual void block_walked(const BlockJob& /*job*/, std::uint64_t /*touched*/) {}
+  /// A step that only leads the walk, by a square of `side` pixels with this top left pixel.
+  virtual void walk_led(const GridPlace& /*pixel*/, int /*side*/) {}
   virtual void hi_z_decided(const BlockJob& /*block*/, std::uint64_t /*rejected*/) {}
   virtual void draw_done(std::size_t /*done*/, std::size_t /*of*/) {}
 };

@@ -33,8 +33,8 @@ std::vector<Field> parse_descr(const std::string& descr, const std::string& file
   std::vector<Field> fields;
   std::size_t offset = 0;
   const auto add = [&](std::string name, const std::string& type, std::size_t count) {
-    if (type.size() != 3 || (type[1] != 'u' && type[1] != 'f') || std::strchr("1248", type[2]) == nullptr ||
-        count == 0) {
+    if (type.size() != 3 || std::strchr("uif", type[1]) == nullptr ||
+        std::strchr("1248", type[2]) == nullptr || count == 0) {
       throw InputError(fmt::format("{}: dtype {} is not one that a run writes", file, descr));
     }
     const auto size = static_cast<std::size_t>(type[2] - '0');
@@ -73,6 +73,10 @@ std::string value_text(const Field& field, const std::byte* record, std::size_t 
   }
   std::uint64_t value = 0;
   std::memcpy(&value, at, field.size);
+  if (field.kind == 'i') {
+    const std::size_t above = 64 - 8 * field.size;
+    return std::to_string(static_cast<std::int64_t>(value << above) >> above);
+  }
   return std::to_string(value);
 }
 

@@ -61,7 +61,7 @@ class UnitChain {
     }
     tile_walker<TileSize>(job, config_, *this);
   }
-  static void pass() {}
+  static void pass(const GridPlace& /*cell*/, int /*side*/) {}
 
   void tile(const TileJob& job, bool whole) {
     ++tally_->tiles;

@@ -170,7 +170,7 @@ void walk_cells(TriangleBlocks<TileSize>& blocks, const WalkerConfig& config, Si
       const GridPlace at = walk.at();
       const RowSides sides = is_led(config.order) ? blocks.sides(at, side) : RowSides{};
       if (walk.passes(sides)) {
-        sink.pass();
+        sink.pass(at, side);
       } else if (config.levels == 1) {
         const int row = blocks.row_tiles();
         blocks.visit({at.x / row, at.y / row}, std::uint64_t{1} << (at.y % row * row + at.x % row), sink);
@@ -215,7 +215,7 @@ void walk_superblocks(TriangleBlocks<TileSize>& blocks, const WalkerConfig& conf
     for (; !walk.done(); walk.advance({})) {
       const GridPlace at = walk.at();
       const std::uint64_t left = blocks_of_superblock(blocks, at, config);
-      sink.pass();
+      sink.pass(at, row * config.block_size);
       for_each_in_order(order_in_square(config.order), row, left, [&](int block) {
         blocks.visit({at.x * row + block % row, at.y * row + block / row}, kAllTiles, sink);
       });
@@ -225,7 +225,8 @@ void walk_superblocks(TriangleBlocks<TileSize>& blocks, const WalkerConfig& conf
 
 /// Walks one triangle. Calls sink.block(job, touched) for every block that a step decides; `touched` are the
 /// tiles that the step looks at, of which job.tiles are those that are not rejected: none, where nothing
-/// leaves. Calls sink.pass() for every step that only leads the walk.
+/// leaves. Calls sink.pass(cell, side) for every step that only leads the walk: at a cell of the grid of
+/// squares of `side` pixels.
 template <int TileSize, class Sink>
 void block_walker(const SetupTriangle& triangle, const WalkerConfig& config, std::uint8_t slot, Sink& sink) {
   TriangleBlocks<TileSize> blocks(triangle, config, slot);

@@ -68,9 +68,12 @@ class BlockWalker {
       emit(job, before);
     }
 
-    void pass() {
+    void pass(const GridPlace& cell, int side) {
       ++draw.counters.block_walker.passes;
       ++empty;
+      if (draw.record_walk) {
+        draw.observer->walk_led({.x = cell.x * side, .y = cell.y * side}, side);
+      }
     }
 
     /// All of a block, in row order: also those that tile_walker makes of its tiles, later on.

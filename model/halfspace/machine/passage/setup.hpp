@@ -34,6 +34,7 @@ inline bool setup(const ScreenTriangle& in, DrawContext& draw, SetupTriangle& ou
                            .triangle = in.triangle,
                            .surface = draw.surface,
                            .verdict = verdict,
+                           .screen = &in,
                            .drawn = drawn ? &out : nullptr});
   }
   return drawn;
