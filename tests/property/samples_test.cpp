@@ -1,5 +1,6 @@
 // Several samples a pixel in whole runs. Judges: the definition, sample by sample, through the families of
 // the stress campaign; and the machine with one sample a pixel, at the place of each sample in turn.
+#include <array>
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "halfspace/scene/validate.hpp"
 #include "halfspace/stress/campaign.hpp"
 #include "halfspace/stress/campaign_state.hpp"
+#include "halfspace/stress/depth_bound.hpp"
+#include "halfspace/stress/exact_plane.hpp"
+#include "halfspace/stress/family.hpp"
+#include "halfspace/stress/judge.hpp"
 #include "halfspace/stress/subject.hpp"
 #include "random.hpp"
 
@@ -206,6 +211,38 @@ TEST_CASE("samples: every family of the stress campaign holds for every sample",
       }
     }
   }
+}
+
+TEST_CASE("samples: a vertex that rounds to depth 0 has the bound of the words that its triangle takes") {
+  // The bounds of docs/numerics.md, in 24-bit codes; a vertex depth has 7 bits more. Words are long with a
+  // vertex of -1 units, and short with one of less than half a unit.
+  const stress::Precision precision{};
+  const double unit = 1.0 / 0xFFFFFF;
+  const auto bound_of = [&](double units, DepthInterpolator interpolator) {
+    const std::array<float, 3> z{0x1p-13F, static_cast<float>(units / 128 * unit), 1};
+    const stress::ExactPlane plane({reference::GridPoint{0, 0}, {4096, 0}, {0, 4096}}, z, Command{},
+                                   precision.format, precision.sub_pixel_bits);
+    return stress::depth_bound(precision, interpolator, z, plane, plane.error(128, 128, 0));
+  };
+  const double rounding = 0.5 + 0.5 / 128;
+  CHECK(bound_of(-0.4, DepthInterpolator::kPlane) == rounding + 21.5 / 128);
+  CHECK(bound_of(0, DepthInterpolator::kPlane) == rounding + 21.5 / 128);
+  CHECK(bound_of(-1, DepthInterpolator::kPlane) < rounding + 0x1p-30);
+  CHECK(bound_of(-0.4, DepthInterpolator::kBarycentric) < rounding + 0.82 / 16);
+  // A triangle with a vertex at -0.35 units that is beyond the bound of long words at 31 samples.
+  const auto samples = GENERATE(1, 4);
+  Config config;
+  config.raster.samples = samples;
+  Units units(config);
+  const stress::Precision several{.samples = standard_samples(4)};
+  stress::Case made = stress::make_case(stress::family_of("clamp_and_offset"), several, 1, 90);
+  const stress::KnownTriangle& triangle = made.triangles[30];
+  CHECK(vertex_depth_code(DepthFormat::kUnorm24, triangle.z[1]) == 0);
+  CHECK(triangle.z[1] < 0);
+  const stress::Precision drawn{.samples = sample_pattern(config)};
+  const stress::Tally tally = stress::judge(made, drawn, {}, units.draw(made.frame), nullptr);
+  CHECK(tally.depths > 0);
+  CHECK(tally.errors() == 0);
 }
 
 TEST_CASE("samples: the judge finds one sample that is wrong, whichever it is", "[property]") {

@@ -35,7 +35,9 @@ inline double depth_bound(const Precision& precision, DepthInterpolator interpol
   // Vertices and offset are rounded to half a unit of a vertex depth each.
   const double fraction = std::ldexp(1.0, -vertex_depth_fraction(format));
   const double rounding = 0.5 + (plane.offset() == 0 ? 0.5 : 1) * fraction;
-  const bool beyond = least < 0 || vertex_depth_code(format, most) >= kShortWordEnd;
+  // Which words the plane takes is decided by the rounded vertices: one just below 0 is 0.
+  const bool beyond =
+      vertex_depth_code(format, least) < 0 || vertex_depth_code(format, most) >= kShortWordEnd;
   if (is_plane) {
     return rounding + (beyond ? largest * 0x1p-56 / error.unit : 21.5 * fraction);
   }
