@@ -10,7 +10,11 @@
 module barycentric_sample
   import raster_pkg::*;
   import depth_pkg::*;
-(
+  import square_pkg::*;
+#(
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
+  parameter int unsigned Conservative = Centres
+) (
   input  logic                      clk_i,
 
   // What all samples of a beat share comes from depth_barycentric; the number is that of the stage that it is for.
@@ -25,8 +29,12 @@ module barycentric_sample
   input  edge_t                     step1_i,
   input  edge_t                     step2_i,
 
-  // Stage 2.
+  // Stage 2: 2A; how much more E of edge 1, of edge 2 and their sum are than at the pixel's centre. Only with
+  // Conservative.
   input  edge_t                     area2_i,
+  input  edge_t                     square1_i,
+  input  edge_t                     square2_i,
+  input  edge_t                     squares_i,
 
   // Stage 3: exponent fields of the vertices' depths, 1 for subnormal numbers.
   input  shift_t                    shift3_i,
@@ -91,13 +99,53 @@ module barycentric_sample
   end
 
   // 2: the three weights' numerators.
-  edge_t weight0_q, weight1_q, weight2_q;
+  typedef struct packed {
+    edge_t w0;
+    edge_t w1;
+    edge_t w2;
+  } weights_t;
 
-  always_ff @(posedge clk_i) begin
-    if (valid[1]) begin
-      weight0_q <= area2_i - edge1_q - edge2_q;
-      weight1_q <= edge1_q;
-      weight2_q <= edge2_q;
+  weights_t weights_q;
+
+  // The weight of vertex 1 cut to [0, 2A], that of vertex 2 to [0, what that leaves]. Vertex 0 has the rest.
+  function automatic weights_t cut(edge_t area2, weights_t w);
+    edge_t left1, left2; // what the weight of vertex 1, or of vertex 2, leaves
+    left1 = area2 - w.w1;
+    left2 = area2 - w.w2;
+    if (w.w1[EdgeBits-1]) begin
+      return w.w2[EdgeBits-1]    ? '{w0: area2, w1: '0, w2: '0}
+             : left2[EdgeBits-1] ? '{w0: '0, w1: '0, w2: area2}
+                                 : '{w0: left2, w1: '0, w2: w.w2};
+    end
+    if (left1[EdgeBits-1]) begin
+      return '{w0: '0, w1: area2, w2: '0};
+    end
+    return w.w2[EdgeBits-1]   ? '{w0: left1, w1: w.w1, w2: '0}
+           : w.w0[EdgeBits-1] ? '{w0: '0, w1: w.w1, w2: left1}
+                              : w;
+  endfunction
+
+  if (Conservative == Centres) begin : gen_centres
+    always_ff @(posedge clk_i) begin
+      if (valid[1]) begin
+        weights_q.w0 <= area2_i - edge1_q - edge2_q;
+        weights_q.w1 <= edge1_q;
+        weights_q.w2 <= edge2_q;
+      end
+    end
+
+    logic unused_squares;
+    assign unused_squares = ^{square1_i, square2_i, squares_i};
+  end else begin : gen_squares
+    always_ff @(posedge clk_i) begin
+      if (valid[1]) begin
+        automatic weights_t centre = '{
+          w0: area2_i - edge1_q - edge2_q + squares_i,
+          w1: edge1_q - square1_i,
+          w2: edge2_q - square2_i
+        };
+        weights_q <= Conservative == Outer ? cut(area2_i, centre) : centre;
+      end
     end
   end
 
@@ -121,13 +169,13 @@ module barycentric_sample
   always_ff @(posedge clk_i) begin
     if (is_unorm[2]) begin
       // The first is not needed: z0 is added with weight 1.
-      operand1_q <= scaled(weight1_q, shift3_i);
-      operand2_q <= scaled(weight2_q, shift3_i);
+      operand1_q <= scaled(weights_q.w1, shift3_i);
+      operand2_q <= scaled(weights_q.w2, shift3_i);
     end
     if (is_float[2]) begin
-      automatic normalized_t normal0 = normalize(64'(weight0_q));
-      automatic normalized_t normal1 = normalize(64'(weight1_q));
-      automatic normalized_t normal2 = normalize(64'(weight2_q));
+      automatic normalized_t normal0 = normalize(64'(weights_q.w0));
+      automatic normalized_t normal1 = normalize(64'(weights_q.w1));
+      automatic normalized_t normal2 = normalize(64'(weights_q.w2));
       operand0_q    <= normal0.value[63:32];
       operand1_q    <= normal1.value[63:32];
       operand2_q    <= normal2.value[63:32];

@@ -1,12 +1,20 @@
 // Depth at the samples of a beat by barycentric weights: barycentric_sample for each, and what they share, each part of
 // it computed in the cycle before the stage that needs it. Latency is 12 cycles; a beat a cycle; nothing stalls.
+//
+// Where triangles are drawn by squares, E is that at the corner of a square, and weights are those of its centre. Of three
+// edges by centres at least one does not own its samples, so a triangle is drawn by squares where no bias is 1.
 
 module depth_barycentric
   import raster_pkg::*;
   import depth_pkg::*;
+  import square_pkg::*;
 #(
   /// Quads of a beat, 1 or more. Each costs four samples, with 6 multipliers each.
-  parameter int unsigned Quads = TestWidth
+  parameter int unsigned Quads = TestWidth,
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0
 ) (
   input  logic                                  clk_i,
 
@@ -144,15 +152,26 @@ module depth_barycentric
 
   // For stages 2 to 6: 2A; exponents; reciprocal or mantissas; differences and signs; z0, offset and half a code.
   edge_t              area2_q;
+  edge_t [1:0]        square_d, square_q; // E at the corner of a square less E at its centre
+  edge_t              squares_q;
   logic [2:0] [7:0]   z_exponent_q;
   logic [2:0] [31:0]  factor_q;
   logic signed [31:0] difference1_q, difference2_q;
   logic [2:0]         negative_q;
   logic signed [63:0] base_q;
 
+  for (genvar i = 0; i < 2; i++) begin : gen_square
+    assign square_d[i] = equation_i.bias == '0
+                         ? to_square(span_of(equation_i.a[i], equation_i.b[i]), Conservative,
+                                     Uncertainty)
+                         : '0;
+  end
+
   always_ff @(posedge clk_i) begin
     if (valid[0]) begin
-      area2_q <= equation_i.area2;
+      area2_q   <= equation_i.area2;
+      square_q  <= square_d;
+      squares_q <= square_d[0] + square_d[1];
     end
     for (int unsigned i = 0; i < 3; i++) begin
       if (valid[1] && is_float[1]) begin
@@ -185,7 +204,9 @@ module depth_barycentric
       assign corner[i] = at_quad(origin[i], a[i], b[i], index_i[q]);
     end
     for (genvar s = 0; s < 4; s++) begin : gen_sample
-      barycentric_sample u_sample (
+      barycentric_sample #(
+        .Conservative (Conservative)
+      ) u_sample (
         .clk_i         (clk_i),
         .float_i       (is_float),
         .valid_i       (quad_valid),
@@ -194,6 +215,9 @@ module depth_barycentric
         .step1_i       ((s % 2 == 1 ? a[0] : '0) + (s / 2 == 1 ? b[0] : '0)),
         .step2_i       ((s % 2 == 1 ? a[1] : '0) + (s / 2 == 1 ? b[1] : '0)),
         .area2_i       (area2_q),
+        .square1_i     (square_q[0]),
+        .square2_i     (square_q[1]),
+        .squares_i     (squares_q),
         .shift3_i      (shift[2]),
         .exponent_i    (z_exponent_q),
         .factor_i      (factor_q),

@@ -3,13 +3,18 @@
 module depth_interpolator
   import raster_pkg::*;
   import depth_pkg::*;
+  import square_pkg::*;
 #(
   /// Quads of a beat, 1 or more.
   parameter int unsigned Quads = TestWidth,
   /// 0 plane, 1 barycentric.
   parameter int unsigned Interpolator = Plane,
   /// Cycles to the codes, 12 or more. Those above are registers at the end.
-  parameter int unsigned Latency = 12
+  parameter int unsigned Latency = 12,
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner. Outer ones need barycentric weights.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0
 ) (
   input  logic                                  clk_i,
 
@@ -52,7 +57,9 @@ module depth_interpolator
     assign unused_edges = ^e_i;
   end else begin : gen_barycentric
     depth_barycentric #(
-      .Quads (Quads)
+      .Quads        (Quads),
+      .Conservative (Conservative),
+      .Uncertainty  (Uncertainty)
     ) u_barycentric (
       .clk_i      (clk_i),
       .valid_i    (valid_i),

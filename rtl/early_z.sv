@@ -12,6 +12,7 @@ module early_z
   import raster_pkg::*;
   import depth_pkg::*;
   import z_codec_pkg::*;
+  import square_pkg::*;
 #(
   /// Bursts between the lookup and the end of their test, 2 or more.
   parameter int unsigned PendingDepth = 32,
@@ -21,6 +22,10 @@ module early_z
   parameter int unsigned Interpolator = Plane,
   /// Cycles to interpolate depth, 12 or more.
   parameter int unsigned InterpolatorLatency = 12,
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner. Outer ones need barycentric weights.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0,
   /// Lines of the z cache, a power of two, at least ZParts * Ways.
   parameter int unsigned Lines = 128,
   /// Lines of a set: a power of two.
@@ -386,7 +391,9 @@ module early_z
   depth_interpolator #(
     .Quads        (TestWidth),
     .Interpolator (Interpolator),
-    .Latency      (InterpolatorLatency)
+    .Latency      (InterpolatorLatency),
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty)
   ) u_interpolator (
     .clk_i      (clk_i),
     .valid_i    (valid_q[0]),

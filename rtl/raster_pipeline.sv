@@ -9,6 +9,8 @@ module raster_pipeline
   import z_codec_pkg::*;
 #(
   // Names in the configuration file and what each costs: docs/units/raster_pipeline.md.
+  parameter int unsigned Conservative = 0,
+  parameter int unsigned Uncertainty = 1,
   parameter int unsigned SetupQueue = 8,
   parameter int unsigned SetupInterval = 1,
   parameter int unsigned SetupFifo = 40,
@@ -122,6 +124,8 @@ module raster_pipeline
   draw_state_t     state;
 
   setup #(
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty),
     .QueueDepth   (SetupQueue),
     .FifoDepth    (SetupFifo),
     .Interval     (SetupInterval),
@@ -313,6 +317,8 @@ module raster_pipeline
     .FifoDepth           (EarlyZFifo),
     .Interpolator        (Interpolator),
     .InterpolatorLatency (InterpolatorLatency),
+    .Conservative        (Conservative),
+    .Uncertainty         (Uncertainty),
     .Lines               (Lines),
     .Ways                (Ways),
     .MissesInFlight      (MissesInFlight),

@@ -140,6 +140,7 @@ package raster_pkg;
     coord_t [2:0] y;
     vertex_depth_t [2:0] z;
     vertex_depth_t offset;
+    logic [FlagBits-1:0] by_square;
   } screen_triangle_t;
 
   // the state of a draw, as it travels with its triangles

@@ -1,5 +1,6 @@
 raster_pkg.sv
 depth_pkg.sv
+square_pkg.sv
 setup_pkg.sv
 credits.sv
 memory_fifo.sv

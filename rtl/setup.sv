@@ -9,7 +9,12 @@ module setup
   import raster_pkg::*;
   import setup_pkg::*;
   import depth_pkg::*;
+  import square_pkg::*;
 #(
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0,
   /// Triangles in the cull stage and its queue, 2 or more, each as wide as verdict_t. With fewer than 5 the stage
   /// cannot take a triangle in every cycle.
   parameter int unsigned QueueDepth = 8,
@@ -50,7 +55,10 @@ module setup
 
   assign taken = triangle_valid_i & triangle_ready_o;
 
-  setup_cull u_cull (
+  setup_cull #(
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty)
+  ) u_cull (
     .clk_i      (clk_i),
     .rst_ni     (rst_ni),
     .valid_i    (taken),
@@ -100,6 +108,10 @@ module setup
 
     assign divider_free = wait_q == '0;
   end
+
+  // What depth is divided by: not 0, where a triangle without area is drawn. It has one depth.
+  area_t depth_area2;
+  assign depth_area2 = Conservative == Outer && verdict.area2 == '0 ? area_t'(1) : verdict.area2;
 
   // Depth of a surface that is not there: zeros.
   logic has_depth;
@@ -164,7 +176,7 @@ module setup
 
   always_comb begin
     known_d.z      = with_weights ? verdict.triangle.z : '0;
-    known_d.area2  = with_weights ? verdict.area2 : '0;
+    known_d.area2  = with_weights ? depth_area2 : '0;
     known_d.shift  = with_weights ? shift : '0;
     known_d.x      = with_plane ? verdict.triangle.x[0] : '0;
     known_d.y      = with_plane ? verdict.triangle.y[0] : '0;
@@ -172,7 +184,10 @@ module setup
     known_d.state  = verdict.state;
   end
 
-  setup_edges u_edges (
+  setup_edges #(
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty)
+  ) u_edges (
     .clk_i              (clk_i),
     .rst_ni             (rst_ni),
     .valid_i            (draw),
@@ -182,6 +197,7 @@ module setup
     .x_first_i          (verdict.bounds.x_first),
     .y_first_i          (verdict.bounds.y_first),
     .fill_rule_i        (verdict.state.fill_rule),
+    .by_square_i        (verdict.triangle.by_square),
     .valid_o            (edges_valid),
     .e_o                (edges_d.e),
     .a_o                (edges_d.a),
@@ -216,7 +232,7 @@ module setup
     .clk_i      (clk_i),
     .rst_ni     (rst_ni),
     .valid_i    (draw),
-    .value_i    (verdict.area2),
+    .value_i    (depth_area2),
     .tag_i      (has_depth),
     .shift_o    (shift),
     .valid_o    (reciprocal_valid),
@@ -237,7 +253,7 @@ module setup
       .valid_i      (draw),
       .x_i          (verdict.triangle.x),
       .y_i          (verdict.triangle.y),
-      .area2_i      (verdict.area2),
+      .area2_i      (depth_area2),
       .shift_i      (shift),
       .words_i      (words),
       .short_i      (is_short),

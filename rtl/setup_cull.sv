@@ -3,11 +3,20 @@
 // Three registers, one triangle a cycle: differences of the vertices; products of the area and extremes of the
 // coordinates; area of either sign and bounds. The verdict follows behind the third. Two multipliers of StepBits. What a
 // register takes is written where it loads: a simulator then computes nothing where nothing is valid.
+//
+// A triangle without area is drawn where outer pixels are: it faces back, has the depth of its first vertex, and leaves
+// with an area of 0.
 
 module setup_cull
   import raster_pkg::*;
   import setup_pkg::*;
-(
+  import square_pkg::*;
+#(
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0
+) (
   input  logic             clk_i,
   input  logic             rst_ni,
 
@@ -57,6 +66,14 @@ module setup_cull
     return dy[StepBits-1] || (dy == '0 && dx[StepBits-1]);
   endfunction
 
+  // by_square of a triangle, where the machine has squares.
+  function automatic screen_triangle_t known(screen_triangle_t triangle);
+    screen_triangle_t result;
+    result           = triangle;
+    result.by_square = triangle.by_square & (Conservative != Centres);
+    return result;
+  endfunction
+
   // Bit i: register i holds a triangle.
   logic [3:1] valid_q;
 
@@ -83,7 +100,7 @@ module setup_cull
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
       compared_q <= '{
-        triangle: triangle_i,
+        triangle: known(triangle_i),
         state:    state_i,
         x:        differences(triangle_i.x),
         y:        differences(triangle_i.y)
@@ -146,16 +163,23 @@ module setup_cull
     reach_t           y_last;
   } sized_t;
 
+  // How far the box grows, or shrinks, where squares decide and not centres.
+  localparam step_t Square = Conservative == Outer   ? Half + step_t'(Uncertainty)
+                             : Conservative == Inner ? -Half - step_t'(Uncertainty) : '0;
+
   // The centre of pixel p is at p 2^SubPixelBits + Half: the first pixel rounds up, the last rounds down.
-  function automatic reach_t first_pixel(coord_t min, logic [PixelBits-1:0] limit);
-    step_t  moved = step_t'(min) + (Half - step_t'(1));
+  function automatic reach_t first_pixel(coord_t min, logic by_square,
+                                         logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(min)
+                    + (by_square ? Half - step_t'(1) - Square : Half - step_t'(1));
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel > bound ? pixel : bound;
   endfunction
 
-  function automatic reach_t last_pixel(coord_t max, logic [PixelBits-1:0] limit);
-    step_t  moved = step_t'(max) - Half;
+  function automatic reach_t last_pixel(coord_t max, logic by_square,
+                                        logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(max) + (by_square ? Square - Half : -Half);
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel < bound ? pixel : bound;
@@ -171,21 +195,27 @@ module setup_cull
         first:    product_q.first,
         area:     product_q.plus - product_q.minus,
         negated:  product_q.minus - product_q.plus,
-        x_first:  first_pixel(product_q.x_min, product_q.state.x_first),
-        x_last:   last_pixel(product_q.x_max, product_q.state.x_last),
-        y_first:  first_pixel(product_q.y_min, product_q.state.y_first),
-        y_last:   last_pixel(product_q.y_max, product_q.state.y_last)
+        x_first:  first_pixel(product_q.x_min, product_q.triangle.by_square,
+                              product_q.state.x_first),
+        x_last:   last_pixel(product_q.x_max, product_q.triangle.by_square,
+                             product_q.state.x_last),
+        y_first:  first_pixel(product_q.y_min, product_q.triangle.by_square,
+                              product_q.state.y_first),
+        y_last:   last_pixel(product_q.y_max, product_q.triangle.by_square,
+                             product_q.state.y_last)
       };
     end
   end
 
   // The verdict. A bounding box without a pixel centre has no pixel in common with the screen either.
-  logic negative, front, culled, no_pixel;
-  assign negative = sized_q.area[AreaBits];
-  assign front    = negative != sized_q.state.front_positive_area;
-  assign culled   = front ? sized_q.state.cull_front : sized_q.state.cull_back;
-  assign no_pixel = sized_q.x_last < sized_q.x_first || sized_q.y_last < sized_q.y_first ||
-                    sized_q.state.empty;
+  logic negative, flat, flat_drawn, front, culled, no_pixel;
+  assign negative   = sized_q.area[AreaBits];
+  assign flat       = sized_q.area == '0;
+  assign flat_drawn = Conservative == Outer && flat && sized_q.triangle.by_square;
+  assign front      = negative != sized_q.state.front_positive_area && !flat_drawn;
+  assign culled     = front ? sized_q.state.cull_front : sized_q.state.cull_back;
+  assign no_pixel   = sized_q.x_last < sized_q.x_first || sized_q.y_last < sized_q.y_first ||
+                      sized_q.state.empty;
 
   // Vertex that comes i-th. Negative area is turned by going round the other way.
   function automatic logic [1:0] turned(logic [1:0] first, logic backwards, logic second);
@@ -200,7 +230,7 @@ module setup_cull
   assign order[2] = turned(sized_q.first, negative, 1'b1);
 
   always_comb begin
-    verdict_o.drawn  = sized_q.area != '0 && !culled && !no_pixel;
+    verdict_o.drawn  = (!flat || flat_drawn) && !culled && !no_pixel;
     verdict_o.area2  = area_t'(negative ? sized_q.negated : sized_q.area);
     verdict_o.state  = sized_q.state;
     verdict_o.bounds = '{
@@ -209,11 +239,12 @@ module setup_cull
       y_first: sized_q.y_first[PixelBits-1:0],
       y_last:  sized_q.y_last[PixelBits-1:0]
     };
-    verdict_o.triangle.offset = sized_q.triangle.offset;
+    verdict_o.triangle.offset    = sized_q.triangle.offset;
+    verdict_o.triangle.by_square = sized_q.triangle.by_square;
     for (int unsigned i = 0; i < 3; i++) begin
       verdict_o.triangle.x[i] = pick(sized_q.triangle.x, order[i]);
       verdict_o.triangle.y[i] = pick(sized_q.triangle.y, order[i]);
-      verdict_o.triangle.z[i] = order[i] == 2'd0 ? sized_q.triangle.z[0] :
+      verdict_o.triangle.z[i] = order[i] == 2'd0 || flat_drawn ? sized_q.triangle.z[0] :
                                 order[i] == 2'd1 ? sized_q.triangle.z[1] : sized_q.triangle.z[2];
     end
   end

@@ -3,11 +3,20 @@
 // Four registers, one triangle a cycle: steps and the start relative to vertex 0; products; E of edges 1 and 2; E of edge
 // 0, and the fill rule. The three unbiased E add up to 2A everywhere. Four multipliers of StepBits. What a register takes is
 // written where it loads: a simulator then computes nothing where nothing is valid.
+//
+// An edge of a triangle that is drawn by squares owns what ends on it, and has E at the corner of a square that decides in
+// place of its centre: a multiple of |A| + |B| more.
 
 module setup_edges
   import raster_pkg::*;
   import setup_pkg::*;
-(
+  import square_pkg::*;
+#(
+  /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
+  parameter int unsigned Conservative = Centres,
+  /// How much larger than the pixel its square is on each side, in sub-pixels.
+  parameter int unsigned Uncertainty = 0
+) (
   input  logic                    clk_i,
   input  logic                    rst_ni,
 
@@ -18,6 +27,7 @@ module setup_edges
   input  logic [PixelBits-1:0]    x_first_i, // of the bounds
   input  logic [PixelBits-1:0]    y_first_i,
   input  logic [FillRuleBits-1:0] fill_rule_i,
+  input  logic                    by_square_i, // 0 where Conservative is
 
   // Four cycles later.
   output logic                    valid_o,
@@ -58,6 +68,7 @@ module setup_edges
     step_t       y;
     area_t       area2;
     logic [FillRuleBits-1:0] fill_rule;
+    logic        by_square;
   } steps_t;
 
   steps_t steps_q;
@@ -72,6 +83,7 @@ module setup_edges
       steps_q.y         <= start(y_first_i) - step_t'(y_i[0]);
       steps_q.area2     <= area2_i;
       steps_q.fill_rule <= fill_rule_i;
+      steps_q.by_square <= by_square_i & (Conservative != Centres);
     end
   end
 
@@ -90,6 +102,7 @@ module setup_edges
     edge_t [1:0] down;
     area_t       area2;
     logic [2:0]  bias;
+    span_t [2:0] span; // 0 where centres decide
   } products_t;
 
   products_t products_q;
@@ -104,7 +117,9 @@ module setup_edges
         products_q.down[i]   <= edge_t'(steps_q.b[i+1]) * edge_t'(steps_q.y);
       end
       for (int unsigned i = 0; i < 3; i++) begin
-        products_q.bias[i] <= lowered(steps_q.a[i], steps_q.b[i], steps_q.fill_rule);
+        products_q.bias[i] <= lowered(steps_q.a[i], steps_q.b[i], steps_q.fill_rule)
+                              & !steps_q.by_square;
+        products_q.span[i] <= steps_q.by_square ? span_of(steps_q.a[i], steps_q.b[i]) : '0;
       end
     end
   end
@@ -116,6 +131,7 @@ module setup_edges
     edge_t [1:0] e;
     area_t       area2;
     logic [2:0]  bias;
+    edge_t [2:0] square;
   } sums_t;
 
   sums_t sums_q;
@@ -128,6 +144,9 @@ module setup_edges
       sums_q.bias  <= products_q.bias;
       for (int unsigned i = 0; i < 2; i++) begin
         sums_q.e[i] <= edge_t'(products_q.across[i]) + edge_t'(products_q.down[i]);
+      end
+      for (int unsigned i = 0; i < 3; i++) begin
+        sums_q.square[i] <= to_square(products_q.span[i], Conservative, Uncertainty);
       end
     end
   end
@@ -148,9 +167,9 @@ module setup_edges
       edges_q.b    <= sums_q.b;
       edges_q.bias <= sums_q.bias;
       edges_q.e[0] <= edge_t'({1'b0, sums_q.area2}) - sums_q.e[0] - sums_q.e[1]
-                      - edge_t'({1'b0, sums_q.bias[0]});
-      edges_q.e[1] <= sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]});
-      edges_q.e[2] <= sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]});
+                      - edge_t'({1'b0, sums_q.bias[0]}) + sums_q.square[0];
+      edges_q.e[1] <= sums_q.e[0] - edge_t'({1'b0, sums_q.bias[1]}) + sums_q.square[1];
+      edges_q.e[2] <= sums_q.e[1] - edge_t'({1'b0, sums_q.bias[2]}) + sums_q.square[2];
     end
   end
 

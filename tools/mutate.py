@@ -40,7 +40,17 @@ class Group(NamedTuple):
 
 
 GROUPS = {
-    "setup": Group("setup", ["t4_s4_i4", "t8_s5_i2", "t8_s8", "plane_t8_s8"], ["--tiles", "12000"]),
+    "setup": Group(
+        "setup",
+        ["t4_s4_i4", "t8_s5_i2", "t8_s8", "plane_t8_s8", "outer_t4_s4_i4", "inner_t8_s5_i2"],
+        ["--tiles", "12000"],
+    ),
+    "squares": Group(
+        "setup",
+        ["outer_t8_s8", "outer_t4_s4_i4", "inner_t8_s5_i2"],
+        ["--tiles", "12000"],
+        ["square_pkg"],
+    ),
     "setup_plane": Group(
         "setup",
         ["plane_t8_s8", "plane_t4_s4_i4"],
@@ -77,7 +87,7 @@ GROUPS = {
     ),
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
-    "early_z": Group("early_z", ["t4", "parts"], ["--bursts", "32000"]),
+    "early_z": Group("early_z", ["t4", "parts", "outer"], ["--bursts", "32000"]),
     "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
     "z_late": Group("early_z", ["late2", "late16", "t4", "late_least"], ["--bursts", "32000"], ["z_late_writes"]),
     "interpolator": Group(

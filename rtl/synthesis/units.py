@@ -175,6 +175,9 @@ def _setup() -> Unit:
             *(of(8, interval, BARYCENTRIC) for interval in (1, 4, 16)),
             of(8, 1, PLANE),
             of(8, 1, PLANE, HiZ="1'b1"),
+            of(8, 1, BARYCENTRIC, Conservative=1, Uncertainty=1),
+            of(8, 1, PLANE, False, HiZ="1'b1", Conservative=2, Uncertainty=1),
+            of(4, 1, BARYCENTRIC, False, Conservative=1, Uncertainty=7),
             of(4, 1, BARYCENTRIC, False),
             of(4, 1, PLANE, False),
             of(4, 1, PLANE, False, HiZ="1'b1"),
@@ -213,6 +216,7 @@ def _early_z() -> Unit:
         ("early_z",),
         (
             whole(1, BARYCENTRIC),
+            whole(1, BARYCENTRIC, Conservative=1, Uncertainty=1),
             whole(1, PLANE),
             whole(4, PLANE),
             whole(4, PLANE, long=True, HiZ="1'b1"),
@@ -235,6 +239,7 @@ def _early_z_parts() -> Unit:
         ("early_z",),
         (
             Configuration("barycentric_sample", multipliers=SAMPLE_MULTIPLIERS),
+            Configuration("barycentric_sample", {}, {"Conservative": 1}, SAMPLE_MULTIPLIERS),
             Configuration("plane_sample"),
             *(Configuration("depth_plane", {}, {"Quads": quads}, TILE_MULTIPLIERS) for quads in (1, 4)),
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),

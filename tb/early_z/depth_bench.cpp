@@ -61,9 +61,16 @@ class DepthBench {
     static constexpr std::array<DepthFormat, 4> kFormats = {DepthFormat::kUnorm16, DepthFormat::kUnorm24,
                                                             DepthFormat::kFloat32, DepthFormat::kFloat32};
     const DepthFormat format = kFormats[random_.below(4)];
-    const SetupTriangle triangle = random_triangle(widths_, format, interpolator_, 512, 512, random_);
-    const EarlyZState state{
-        .format = format, .interpolator = interpolator_, .sub_pixel_bits = widths_.SubPixelBits};
+    constexpr Squares kSquares{.mode = static_cast<Conservative>(HALFSPACE_CONSERVATIVE),
+                               .uncertainty = HALFSPACE_UNCERTAINTY};
+    const bool by_square = kSquares.mode != Conservative::kOff && random_.below(4) != 0;
+    const Squares squares = by_square ? kSquares : Squares{};
+    const SetupTriangle triangle =
+        random_triangle(widths_, format, interpolator_, 512, 512, random_, squares);
+    const EarlyZState state{.format = format,
+                            .interpolator = interpolator_,
+                            .sub_pixel_bits = widths_.SubPixelBits,
+                            .square_reach = squares.reach(widths_)};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
     pack(to_packet(triangle, format, interpolator_), widths_, words);
     set_port(dut_->equation_i, words);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/numerics/conservative.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/depth_interpolator.hpp"
 #include "halfspace/units/z_codec.hpp"
@@ -31,10 +32,14 @@ struct EarlyZShape {
   bool hi_z = false;
   bool compression = false;
   int late_queue = 0;
+  int conservative_number = 0;
+  int uncertainty = 0;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
   }
+
+  [[nodiscard]] Conservative conservative() const { return static_cast<Conservative>(conservative_number); }
 
   /// Bytes of a line of 4-byte samples.
   [[nodiscard]] int line_bytes() const { return 4 * widths.MaskBits / widths.ZParts; }

@@ -70,7 +70,8 @@ template <class Model>
 EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int quad_width,
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
                       int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
-                      int interpolator, int hi_z, int compression, int late_queue) {
+                      int interpolator, int hi_z, int compression, int late_queue, int conservative,
+                      int uncertainty) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
             .TileSize = tile_size,
@@ -90,7 +91,9 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
            interpolator,
            hi_z != 0,
            compression != 0,
-           late_queue},
+           late_queue,
+           conservative,
+           uncertainty},
           [](std::uint64_t seed) -> std::unique_ptr<EarlyZDut> {
             return std::make_unique<VerilatedEarlyZ<Model>>(seed);
           }};

@@ -136,9 +136,11 @@ std::vector<QuadBurst> tile_bursts(const Widths& widths, const SetupTriangle& tr
 }  // namespace
 
 SetupTriangle random_triangle(const Widths& widths, DepthFormat format, DepthInterpolator interpolator,
-                              int width, int height, Random& random) {
+                              int width, int height, Random& random, const Squares& squares) {
   const SetupState state{.sub_pixel_bits = widths.SubPixelBits,
                          .fill_rule = kFillRules[random.below(kFillRules.size())],
+                         .conservative = squares.mode,
+                         .square_reach = squares.reach(widths),
                          .bounds = {0, 0, width - 1, height - 1},
                          .depth_format = format,
                          .limits = random_limits(format, random),

@@ -226,8 +226,12 @@ class Maker {
     }
     const int height = local_ ? std::min(surface.height, 2 * shape_.widths.TileSize) : surface.height;
     for (std::uint64_t count = 1 + random_.below(kMostTriangles); count > 0 && left > 0; --count) {
-      SetupTriangle triangle =
-          random_triangle(shape_.widths, state.format, state.interpolator, surface.width, height, random_);
+      const bool by_square = shape_.conservative() != Conservative::kOff && random_.below(4) != 0;
+      const Squares squares =
+          by_square ? Squares{.mode = shape_.conservative(), .uncertainty = shape_.uncertainty} : Squares{};
+      state.square_reach = squares.reach(shape_.widths);
+      SetupTriangle triangle = random_triangle(shape_.widths, state.format, state.interpolator, surface.width,
+                                               height, random_, squares);
       const std::vector<QuadBurst> bursts =
           bursts_of(shape_.widths, triangle, std::min(left, kMostBursts), random_);
       if (bursts.empty()) {

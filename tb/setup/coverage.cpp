@@ -43,6 +43,11 @@ std::string plane_bin(const char* what, std::size_t format) {
   return fmt::format("plane {} format {}", what, kFormatNames[format]);
 }
 
+std::string square_bin(std::uint8_t by_square, std::size_t format) {
+  return fmt::format("by {} format {}", by_square != 0 ? "squares" : "centres", kFormatNames[format]);
+}
+std::string flat_bin(std::size_t first) { return fmt::format("without area, first {}", first); }
+
 std::size_t sign_of(std::int64_t value) { return value < 0 ? 0 : value == 0 ? 1 : 2; }
 
 std::int64_t twice_area(const SetupJob& job) {
@@ -59,7 +64,7 @@ std::size_t verdict_index(const SetupJob& job, const SetupResult& result) {
     case SetupVerdict::kZeroArea:
       return 1;
     case SetupVerdict::kCulled:
-      return (twice_area(job) > 0) == (job.state.front_positive_area != 0) ? 2 : 3;
+      return twice_area(job) != 0 && (twice_area(job) > 0) == (job.state.front_positive_area != 0) ? 2 : 3;
     case SetupVerdict::kNoSample:
       return 4;
     case SetupVerdict::kOutside:
@@ -82,7 +87,14 @@ std::size_t depth_index(const std::array<std::int64_t, 3>& z) {
 
 SetupCoverage::SetupCoverage(const SetupModel& model) : interval_(model.interval), queue_(model.queue) {
   const std::array<std::size_t, 4> formats = {0, 1, 2, 4};
+  for (std::size_t first = 0; model.conservative() == Conservative::kOuter && first < 3; ++first) {
+    counts_[flat_bin(first)];
+  }
   for (const std::size_t format : formats) {
+    if (model.conservative() != Conservative::kOff) {
+      counts_[square_bin(0, format)];
+      counts_[square_bin(1, format)];
+    }
     if (model.has_planes() && format != 0) {
       for (const char* const what : {"known", "unknown", "largest fall", "short of the largest rise"}) {
         counts_[plane_bin(what, format)];
@@ -132,6 +144,10 @@ void SetupCoverage::triangle(const SetupJob& job, const SetupResult& result, con
   std::size_t first = 0;
   for (std::size_t i = 1; i < 3; ++i) {
     first = std::pair(y[i], x[i]) < std::pair(y[first], x[first]) ? i : first;
+  }
+  hit(square_bin(job.triangle.by_square, format));
+  if (area2 == 0) {
+    hit(flat_bin(first));
   }
   const std::size_t rule = job.state.fill_rule;
   hit(order_bin(area2 < 0, first, rule));

@@ -13,6 +13,8 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
   config.tile_walker.tile_size = model.dut.tile_size;
   config.block_walker.block_size = model.block_size;
+  config.raster.conservative = model.conservative();
+  config.raster.uncertainty = model.uncertainty;
   FrameResult result;
   result.surfaces = make_surfaces(frame, config, Watch{.count_pixels = false});
   const std::vector<ZSurface> places = place_surfaces(result.surfaces, config);
@@ -32,7 +34,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
       for (const ScreenTriangle& triangle : item->triangles) {
         const DrawStatePacket state =
             draw_state_packet(setup_state(draw.setup, triangle), draw.early_z, place, blocks, 0);
-        jobs.push_back({to_packet(triangle), state});
+        jobs.push_back({to_packet(triangle, draw.setup.conservative), state});
       }
     }
   }

@@ -19,10 +19,13 @@ struct SetupModel {
   int block_size = 32;
   int interpolator_number = 1;
   bool hi_z = false;
+  int conservative_number = 0;
+  int uncertainty = 0;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
   }
+  [[nodiscard]] Conservative conservative() const { return static_cast<Conservative>(conservative_number); }
   /// Whether planes for hi_z are made.
   [[nodiscard]] bool has_planes() const { return hi_z && interpolator() == DepthInterpolator::kPlane; }
   /// Cycles from the decision to the output.

@@ -6,280 +6,21 @@
 #include <utility>
 
 #include "common/random.hpp"
+#include "places.hpp"
 
 namespace halfspace::tb {
 namespace {
-
-constexpr std::int32_t kScreen = 16383;  // last pixel
-constexpr std::array<std::uint8_t, 4> kFormats = {0, 1, 2, 4};
-
-struct Point {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-
-/// The guard band of a configuration.
-struct Band {
-  explicit Band(const Widths& widths)
-      : one(std::int64_t{1} << widths.SubPixelBits),
-        low(-(std::int64_t{1} << (widths.CoordBits - 1))),
-        high(-low - 1) {}
-
-  [[nodiscard]] Point clamp(Point p) const {
-    return {std::clamp(p.x, low, high), std::clamp(p.y, low, high)};
-  }
-  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const {
-    return {x * one + one / 2, y * one + one / 2};
-  }
-
-  std::int64_t one;  ///< a pixel
-  std::int64_t low;
-  std::int64_t high;
-};
-
-void set_vertices(SetupJob& job, const std::array<Point, 3>& points) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    job.triangle.x[i] = static_cast<std::int32_t>(points[i].x);
-    job.triangle.y[i] = static_cast<std::int32_t>(points[i].y);
-  }
-}
-
-/// A number for each job, in a field that only passes through.
-void number(SetupJob& job, std::uint64_t index) { job.state.first_tile = static_cast<std::uint32_t>(index); }
-
-/// The whole screen, nothing culled.
-DrawStatePacket open_state(std::uint8_t format) {
-  DrawStatePacket state;
-  state.x_last = state.y_last = kScreen;
-  state.format = format;
-  state.most_code = largest_code(static_cast<DepthFormat>(format));
-  return state;
-}
-
-std::uint32_t largest_depth(std::uint8_t format) {
-  const auto depth_format = static_cast<DepthFormat>(format);
-  return format == 0
-             ? 0x7FFFFFFF
-             : static_cast<std::uint32_t>(vertex_depth_of_code(depth_format, largest_code(depth_format)));
-}
-
-/// Every order and turn of a triangle under every rule and culling.
-void add_orders(std::vector<SetupJob>& jobs, const Band& band) {
-  const std::array<std::array<Point, 3>, 6> shapes = {{
-      {{{3, 2}, {40, 11}, {9, 30}}},   // pointed top
-      {{{3, 2}, {40, 2}, {9, 30}}},    // flat top
-      {{{20, 2}, {40, 30}, {9, 30}}},  // flat bottom
-      {{{3, 2}, {3, 30}, {-9, 20}}},   // vertical sides
-      {{{3, 2}, {3, 30}, {19, 20}}},
-      {{{3, 2}, {4, 2}, {3, 3}}},
-  }};
-  for (const auto& shape : shapes) {
-    std::array<std::size_t, 3> order = {0, 1, 2};
-    do {
-      for (unsigned flags = 0; flags < 32; ++flags) {
-        SetupJob job;
-        job.state = open_state(kFormats[flags % 4]);
-        job.state.front_positive_area = flags & 1;
-        job.state.cull_front = flags >> 1 & 1;
-        job.state.cull_back = flags >> 2 & 1;
-        job.state.fill_rule = flags >> 3 & 3;
-        std::array<Point, 3> points;
-        for (std::size_t i = 0; i < 3; ++i) {
-          points[i] = band.centre(shape[order[i]].x, shape[order[i]].y);
-          job.triangle.z[i] = static_cast<std::int64_t>(1000000 * (order[i] + 1));
-        }
-        set_vertices(job, points);
-        jobs.push_back(job);
-      }
-    } while (std::ranges::next_permutation(order).found);
-  }
-}
-
-/// Areas at every power of two, the smallest and the largest, around the first pixel.
-void add_areas(std::vector<SetupJob>& jobs, const Band& band) {
-  const auto add = [&](Point p, Point q, Point r) {
-    for (const std::uint8_t format : kFormats) {
-      SetupJob job;
-      job.state = open_state(format);
-      set_vertices(job, {band.clamp(p), band.clamp(q), band.clamp(r)});
-      job.triangle.z = {0, largest_depth(format), largest_depth(format) / 3};
-      jobs.push_back(job);
-    }
-  };
-  const Point c = band.centre(0, 0);
-  add({c.x, c.y}, {c.x + 1, c.y}, {c.x, c.y + 1});
-  for (std::int64_t size = 2; size <= band.high - c.x; size *= 2) {
-    for (const std::int64_t more : {-1, 0, 1}) {
-      add(c, {c.x + size + more, c.y}, {c.x, c.y + size});
-      add(c, {c.x + size + more, c.y}, {c.x, c.y + size / 2 + more});
-      add({c.x - size, c.y - size}, {c.x + size + more, c.y}, {c.x, c.y + size});
-    }
-  }
-  add({band.low, band.low}, {band.high, band.low}, {band.low, band.high});
-  add({band.high, band.high}, {band.low, band.high}, {band.high, band.low});
-  add({band.low, band.low}, {band.high, band.low}, {band.high, band.high});
-  add({band.low, band.low}, {band.high, band.high}, {band.low, band.low + 1});
-  add({band.low, band.low}, {band.high, band.high}, {band.high, band.high - 1});
-  add({band.low, band.low}, {band.high, band.high}, {0, 0});
-}
-
-/// Boxes whose corners lie on, before and behind centres, at the borders of tiles, blocks and the scissor.
-void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel& model) {
-  const std::array<std::int64_t, 7> pixels = {
-      0, 1, model.dut.tile_size - 1, model.dut.tile_size, model.block_size - 1, model.block_size, kScreen};
-  const DrawStatePacket whole = open_state(1);
-  DrawStatePacket cut = whole;
-  cut.x_first = cut.y_first = static_cast<std::uint16_t>(model.dut.tile_size - 1);
-  cut.x_last = cut.y_last = static_cast<std::uint16_t>(model.block_size);
-  DrawStatePacket empty = whole;
-  empty.empty = 1;
-  for (const DrawStatePacket& state : {whole, cut, empty}) {
-    for (const std::int64_t first : pixels) {
-      for (const std::int64_t last : pixels) {
-        for (const std::int64_t nudge : {-1, 0, 1}) {
-          const Point p = band.centre(first, last);
-          const Point q = band.centre(last, first);
-          SetupJob job;
-          job.state = state;
-          set_vertices(job,
-                       {Point{p.x + nudge, p.y - nudge}, Point{q.x - nudge, p.y}, Point{q.x, q.y + nudge}});
-          jobs.push_back(job);
-          std::swap(job.triangle.x[1], job.triangle.x[2]);
-          jobs.push_back(job);
-        }
-      }
-    }
-  }
-  // Beyond each side of the screen.
-  for (const Point origin :
-       {Point{-100, 50}, Point{kScreen + 100, 50}, Point{50, -100}, Point{50, kScreen + 100}}) {
-    SetupJob job;
-    job.state = whole;
-    set_vertices(job, {band.centre(origin.x, origin.y), band.centre(origin.x + 20, origin.y),
-                       band.centre(origin.x, origin.y + 20)});
-    jobs.push_back(job);
-  }
-}
-
-/// Depths at the roundings of codes, in every position.
-void add_depths(std::vector<SetupJob>& jobs, const Band& band) {
-  for (const std::uint8_t format : kFormats) {
-    const std::uint32_t most = largest_depth(format);
-    std::vector<std::uint32_t> depths = {0, 1, most - 1, most};
-    if (format == 1 || format == 2) {
-      const std::uint32_t half = 1u << (vertex_depth_fraction(static_cast<DepthFormat>(format)) - 1);
-      depths.insert(depths.end(), {half - 1, half, half + 1, most - half, most - half - 1});
-    }
-    for (const std::uint32_t z0 : depths) {
-      for (const std::uint32_t z1 : depths) {
-        for (const std::uint32_t z2 : depths) {
-          SetupJob job;
-          job.state = open_state(format);
-          set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
-          job.triangle.z = {z0, z1, z2};
-          jobs.push_back(job);
-        }
-      }
-    }
-  }
-}
-
-/// A vertex far beyond the farthest code, at every power of two: a code that is cut too short is near again.
-/// And at the end of what short words take.
-void add_far_depths(std::vector<SetupJob>& jobs, const Band& band) {
-  std::vector<std::int64_t> depths;
-  for (int bit = kVertexDepthBits; bit < kVertexDepthBits + kVertexDepthRange; ++bit) {
-    depths.push_back(std::int64_t{1} << bit);
-  }
-  for (const std::int64_t more : {-65, -64, -1, 0, 1, 31, 63}) {
-    depths.push_back(kShortWordEnd + more);
-  }
-  for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24}) {
-    for (const std::int64_t depth : depths) {
-      for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        SetupJob job;
-        job.state = open_state(static_cast<std::uint8_t>(format));
-        set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
-        job.triangle.z = {};
-        job.triangle.z[vertex] = depth;
-        jobs.push_back(job);
-      }
-    }
-  }
-}
-
-/// Gradients at the largest that hi_z knows, 2^25 units of a word of 32 bits for a pixel, and a little more
-/// and less; in x and in y, up and down.
-void add_steep(std::vector<SetupJob>& jobs, const Band& band) {
-  constexpr std::int64_t kFar = 128;  // pixels to the vertex that sets the scale, where depth changes slowly
-  struct Scale {
-    std::uint8_t format;
-    std::int64_t top;   ///< depth there
-    std::int64_t step;  ///< 2^25 units, as a depth
-  };
-  for (const Scale& scale : {Scale{1, 1 << 30, 1 << 25}, Scale{2, 1 << 30, 1 << 25},  // short words
-                             Scale{2, std::int64_t{1} << 31, 1 << 26},                // beyond
-                             Scale{2, std::int64_t{1} << 46, std::int64_t{1} << 41},  // far beyond
-                             Scale{4, 0x3F800000, 0x3D000000}}) {                     // 1 and 2^-5
-    for (const std::int64_t more : {-2, -1, 0, 1, 2}) {
-      for (const std::int64_t times : {1, 2, 4, 1 << 4}) {
-        for (unsigned flags = 0; flags < 4; ++flags) {
-          const std::int64_t step =
-              scale.format == 4 ? scale.step + ((times - 1) << 23) + more : scale.step * times + more;
-          const std::int64_t length = (flags & 1) != 0 ? times : 1;
-          SetupJob job;
-          job.state = open_state(scale.format);
-          set_vertices(job, {band.centre(40, 40), band.centre(40 + length, 40), band.centre(40, 40 + kFar)});
-          job.triangle.z = {0, step, scale.top};
-          if ((flags & 2) != 0) {
-            std::swap(job.triangle.z[0], job.triangle.z[1]);
-          }
-          if (step > scale.top) {
-            continue;
-          }
-          jobs.push_back(job);
-          std::swap(job.triangle.x, job.triangle.y);
-          jobs.push_back(job);
-        }
-      }
-    }
-  }
-}
-
-/// All bits of the state that only pass through, on a drawn triangle.
-void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& widths) {
-  const auto add = [&](auto set) {
-    SetupJob job;
-    job.state = open_state(2);
-    set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
-    set(job.state);
-    jobs.push_back(job);
-  };
-  for (int bit = 0; bit < 32; ++bit) {
-    add([&](DrawStatePacket& state) { state.clear_code = 1u << bit; });
-    add([&](DrawStatePacket& state) { state.first_tile = 1u << bit; });
-    add([&](DrawStatePacket& state) { state.first_block = 1u << bit; });
-  }
-  for (int bit = 0; bit < widths.TileCoordBits; ++bit) {
-    add([&](DrawStatePacket& state) { state.tiles_x = static_cast<std::uint16_t>(1 << bit); });
-  }
-  for (int bit = 0; bit < widths.BlockCoordBits; ++bit) {
-    add([&](DrawStatePacket& state) { state.blocks_x = static_cast<std::uint16_t>(1 << bit); });
-  }
-  for (unsigned flags = 0; flags < 32; ++flags) {
-    add([&](DrawStatePacket& state) {
-      state.test = flags & 1;
-      state.write = flags >> 1 & 1;
-      state.func = static_cast<std::uint8_t>(flags >> 2);
-    });
-  }
-}
 
 /// Makes random jobs, one after the other.
 class Generator {
  public:
   Generator(const SetupModel& model, std::uint64_t seed)
-      : widths_(model.widths()), band_(widths_), block_(model.block_size), random_(seed) {}
+      : widths_(model.widths()),
+        band_(widths_),
+        block_(model.block_size),
+        conservative_(model.conservative() != Conservative::kOff),
+        uncertainty_(model.uncertainty),
+        random_(seed) {}
 
   SetupJob next() {
     if (random_.below(4) == 0) {
@@ -287,8 +28,9 @@ class Generator {
     }
     SetupJob job;
     job.state = state_;
+    job.triangle.by_square = by_square_;
     number(job, count_++);
-    std::array<Point, 3> points = kind();
+    std::array<Point, 3> points = conservative_ && one_in(8) ? on_squares() : kind();
     for (std::size_t i = random_.below(3); i > 0; --i) {
       std::ranges::rotate(points, points.begin() + 1);
     }
@@ -310,6 +52,7 @@ class Generator {
     state_.cull_front = one_in(6) ? 1 : 0;
     state_.cull_back = one_in(4) ? 1 : 0;
     state_.fill_rule = random_.below(kFillRules.size()) & 3;
+    by_square_ = !one_in(3) ? 1 : 0;  // means nothing where the machine draws by centres
     state_.empty = one_in(20) ? 1 : 0;
     state_.test = random_.below(2) & 1;
     state_.write = random_.below(2) & 1;
@@ -345,6 +88,21 @@ class Generator {
   Point in_corner() {
     return band_.clamp({(one_in(2) ? band_.low : band_.high) + random_.range(-band_.one, band_.one),
                         (one_in(2) ? band_.low : band_.high) + random_.range(-band_.one, band_.one)});
+  }
+
+  /// On corners and sides of squares, and next to them: on few places, so that many have no area.
+  std::array<Point, 3> on_squares() {
+    const Point centre = band_.centre(centre_.x, centre_.y);
+    const std::int64_t square = band_.one / 2 + uncertainty_;
+    const auto place = [&] {
+      const std::int64_t side = one_in(3) ? 0 : one_in(2) ? square : -square;
+      return random_.range(-2, 2) * band_.one + side + (one_in(3) ? random_.range(-1, 1) : 0);
+    };
+    std::array<Point, 3> points;
+    for (Point& p : points) {
+      p = one_in(4) ? points[0] : band_.clamp({centre.x + place(), centre.y + place()});
+    }
+    return points;
   }
 
   std::array<Point, 3> kind() {
@@ -454,9 +212,12 @@ class Generator {
   Widths widths_;
   Band band_;
   int block_;
+  bool conservative_;
+  std::int64_t uncertainty_;
   Random random_;
   std::uint64_t count_ = 0;
   DrawStatePacket state_ = open_state(0);
+  std::uint8_t by_square_ = 0;
   Point centre_{100, 100};  ///< in pixels
   std::array<Point, 3> last_{};
 };
@@ -522,23 +283,6 @@ class ListStimulus final : public JobStimulus {
 };
 
 }  // namespace
-
-std::vector<SetupJob> directed_jobs(const SetupModel& model) {
-  const Widths widths = model.widths();
-  const Band band(widths);
-  std::vector<SetupJob> jobs;
-  add_orders(jobs, band);
-  add_areas(jobs, band);
-  add_bounds(jobs, band, model);
-  add_depths(jobs, band);
-  add_far_depths(jobs, band);
-  add_steep(jobs, band);
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    number(jobs[i], i);
-  }
-  add_states(jobs, band, widths);
-  return jobs;
-}
 
 std::vector<SetupJob> timing_jobs(const SetupModel& model, const std::vector<bool>& drawn) {
   const Band band(model.widths());

@@ -16,6 +16,7 @@
 #include "halfspace/core/functional.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/pixel_square.hpp"
+#include "halfspace/reference/rasterizer.hpp"
 #include "halfspace/scene/frame_builder.hpp"
 #include "halfspace/stress/campaign.hpp"
 #include "random.hpp"
@@ -69,11 +70,12 @@ bool is_left(const reference::GridTriangle& triangle, const reference::PixelSqua
   return !polygon.empty();
 }
 
-Config conservative_machine(Conservative mode, int uncertainty) {
+Config conservative_machine(Conservative mode, int uncertainty,
+                            DepthInterpolator interpolator = DepthInterpolator::kBarycentric) {
   Config config;
   config.raster.conservative = mode;
   config.raster.uncertainty = uncertainty;
-  config.depth.interpolator = DepthInterpolator::kBarycentric;
+  config.depth.interpolator = interpolator;
   return config;
 }
 
@@ -174,11 +176,13 @@ TEST_CASE("conservative: the oracle says what cutting the triangle to the square
 TEST_CASE("conservative: each pixel of the adversarial families as the definition has it", "[property]") {
   const auto mode = GENERATE(Conservative::kOuter, Conservative::kInner);
   const auto uncertainty = GENERATE(0, 1, 128);
-  const Config config = conservative_machine(mode, uncertainty);
-  stress::CampaignPlan plan{.precision = {.conservative = mode, .uncertainty = uncertainty},
-                            .depth = {.interpolator = DepthInterpolator::kBarycentric},
+  const auto interpolator = GENERATE(DepthInterpolator::kBarycentric, DepthInterpolator::kPlane);
+  const auto format = GENERATE(DepthFormat::kUnorm24, DepthFormat::kFloat32);
+  const Config config = conservative_machine(mode, uncertainty, interpolator);
+  stress::CampaignPlan plan{.precision = {.format = format, .conservative = mode, .uncertainty = uncertainty},
+                            .depth = {.interpolator = interpolator},
                             .seed = seed(),
-                            .samples = samples(600'000) / 6};
+                            .samples = samples(1'200'000) / 24};
   for (const stress::Family& family : stress::families()) {
     if (stress::is_unclipped(family)) {
       plan.families.push_back(&family);
@@ -188,7 +192,8 @@ TEST_CASE("conservative: each pixel of the adversarial families as the definitio
   Machine subject(config);
   const stress::CampaignState state =
       stress::run_campaign(plan, subject, [](const stress::CampaignState&) {});
-  CAPTURE(seed(), static_cast<int>(mode), uncertainty);
+  CAPTURE(seed(), static_cast<int>(mode), uncertainty, static_cast<int>(interpolator),
+          static_cast<int>(format));
   for (const stress::FamilyState& family : state.families) {
     CAPTURE(family.family, family.tally.missing, family.tally.extra, family.tally.out_of_range,
             family.tally.inexact);
@@ -217,6 +222,41 @@ TEST_CASE("conservative: inner pixels are covered ones, and these are outer ones
       CHECK(inner[at] <= centre[at]);
       CHECK(centre[at] <= outer[at]);
     }
+  }
+}
+
+TEST_CASE("conservative: the reference exact has the same pixels, and depths next to the units'",
+          "[property]") {
+  CAPTURE(seed());
+  TriangleSource source(seed() + 1, kPictureSide, 8);
+  const auto mode = GENERATE(Conservative::kOuter, Conservative::kInner);
+  const std::uint64_t count = samples(60'000) / 200;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    FrameBuilder builder(kPictureSide);
+    std::vector<glm::dvec3> corners;
+    for (const ScreenVertex& v : source.next().v) {
+      corners.emplace_back(v.x / 256.0, v.y / 256.0, static_cast<double>(corners.size()) / 4);
+    }
+    builder.draw(corners);
+    const Config config = conservative_machine(mode, 1, DepthInterpolator::kPlane);
+    const FrameResult ours = run_functional(builder.frame, config, {.count_pixels = true});
+    reference::Options options;
+    options.pixels = mode == Conservative::kOuter ? reference::Pixels::kTouched : reference::Pixels::kFilled;
+    options.uncertainty = 1;
+    options.guard_band = 1e9;  // none is cut in pieces, as the units do not
+    const std::vector<reference::Surface> theirs = reference::rasterize(builder.frame, options);
+    std::size_t different = 0;
+    std::size_t far = 0;
+    for (std::size_t at = 0; at < theirs[0].fragments.size(); ++at) {
+      const auto x = static_cast<int>(at % kPictureSide);
+      const auto y = static_cast<int>(at / kPictureSide);
+      different += theirs[0].fragments[at] == ours.surfaces[0].fragments.at(x, y) ? 0 : 1;
+      const std::int64_t off = std::int64_t{theirs[0].codes[at]} - ours.surfaces[0].codes.at(x, y);
+      far += std::abs(off) > 1 ? 1 : 0;
+    }
+    CAPTURE(i);
+    REQUIRE(different == 0);
+    CHECK(far == 0);  // vertices are on the grid, so both have the same plane
   }
 }
 
@@ -282,14 +322,7 @@ TEST_CASE("conservative: lines and points are drawn by their centres") {
 }
 
 TEST_CASE("conservative: what it does not go with is refused by name") {
-  Config config = conservative_machine(Conservative::kOuter, 1);
-  config.depth.interpolator = DepthInterpolator::kPlane;
-  CHECK_THROWS_WITH(validate(config), Catch::Contains("'depth.interpolator' is plane") &&
-                                          Catch::Contains("legal") && Catch::Contains("barycentric"));
-  config = conservative_machine(Conservative::kInner, 1);
-  config.hi_z.enabled = true;
-  CHECK_THROWS_WITH(validate(config), Catch::Contains("'hi_z.enabled' is 1; legal: false"));
-  config = conservative_machine(Conservative::kInner, 9);
+  Config config = conservative_machine(Conservative::kInner, 9);
   config.raster.sub_pixel_bits = 4;
   CHECK_THROWS_WITH(validate(config),
                     Catch::Contains("'raster.uncertainty' is 9; legal: at most half a pixel (8)"));

@@ -24,7 +24,6 @@ TEST_CASE("hi_z study: counts the bursts that no longer die", "[property]") {
     CAPTURE(seed(), run);
     Config config = random_config(random);
     config.hi_z.enabled = true;
-    config.raster.conservative = Conservative::kOff;  // with hi_z it is refused
     config.tile_walker.order = TileOrder::kRaster;
     config.z_cache.parts = 1;
     config.z_cache.fast_clear = true;  // a drawn clear is no draw of the frame, and may not be told apart

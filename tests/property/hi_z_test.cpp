@@ -16,7 +16,6 @@ Config random_hi_z(Random& random) {
   while (true) {
     Config config = random_config(random);
     config.hi_z.enabled = true;
-    config.raster.conservative = Conservative::kOff;  // with hi_z it is refused
     config.hi_z.bits = pick(random, {4, 5, 8, 12, 16, 24, 32, 32});
     config.hi_z.lag = pick(random, {1, 2, 3, 8, 20, 64, 128, 1024});
     try {
@@ -81,6 +80,8 @@ TEST_CASE("hi_z: loses nothing of planes that touch in a sample, and of steep sl
     config.hi_z.enabled = true;
     config.tile_walker.tile_size = pick(random, {4, 8, 16});
     config.hi_z.lag = pick(random, {1, 8, 128});
+    config.raster.conservative =
+        pick(random, {Conservative::kOff, Conservative::kOuter, Conservative::kInner});
     REQUIRE(lost_by_hi_z(touching_planes(random), config) == "");
     if (run % 8 == 0) {
       REQUIRE(lost_by_hi_z(steep_slivers(random), config) == "");

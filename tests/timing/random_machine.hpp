@@ -73,8 +73,7 @@ inline Config random_config(Random& random) {
   config.hi_z.lag = pick(random, {1, 2, 7, 20, 128, 1024});
   config.hi_z.fifo = mostly_small(random, 4, 16);
   config.depth.interpolator = pick(random, {DepthInterpolator::kPlane, DepthInterpolator::kBarycentric});
-  if (config.depth.interpolator == DepthInterpolator::kBarycentric && !config.hi_z.enabled &&
-      config.raster.sub_pixel_bits == 8) {
+  if (config.raster.sub_pixel_bits == 8) {  // else half a pixel may be less than the uncertainty
     config.raster.conservative =
         pick(random, {Conservative::kOff, Conservative::kOuter, Conservative::kInner});
     config.raster.uncertainty = pick(random, {0, 1, 2, 128});

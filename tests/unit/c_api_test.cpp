@@ -228,7 +228,8 @@ TEST_CASE("c_api: reset forgets packets, bursts and slots, and keeps surfaces") 
   define_surface(model, format);
   const ScreenTriangle triangle = {
       {ScreenVertex{0, 0, 1 << 20}, ScreenVertex{0, 9000, 1 << 20}, ScreenVertex{9000, 0, 1 << 20}}, 0};
-  const Words words = join(machine.widths, to_packet(triangle), draw_state(machine, format));
+  const Words words =
+      join(machine.widths, to_packet(triangle, Conservative::kOff), draw_state(machine, format));
   REQUIRE(put(model, HALFSPACE_TRIANGLE, words) == HALFSPACE_OK);
   const std::vector<Words> first = take(model, HALFSPACE_TILE_JOB);
   REQUIRE_FALSE(first.empty());

@@ -45,7 +45,14 @@ reference::Options options_of(const ReferenceRequest& request, const Config& con
   options.rule = tie_rule(config);
   options.subpixel_bits = config.raster.sub_pixel_bits;
   if (config.raster.conservative != Conservative::kOff) {
-    throw OptionError("raster.conservative is on; legal with --reference: off");
+    const bool outer = config.raster.conservative == Conservative::kOuter;
+    if (request.method != "exact") {
+      throw OptionError(
+          fmt::format("raster.conservative is {}; legal with --reference {}: off; with exact: any",
+                      outer ? "outer" : "inner", request.method));
+    }
+    options.pixels = outer ? reference::Pixels::kTouched : reference::Pixels::kFilled;
+    options.uncertainty = config.raster.uncertainty;
   }
   if (config.late_z.mode == LateZ::kLate) {
     throw OptionError("late_z.mode is 'late'; legal with --reference: opaque, no_write");

@@ -430,13 +430,6 @@ void validate(const Config& config) {
   const int half_pixel = 1 << (config.raster.sub_pixel_bits - 1);
   demand(by_centres || config.raster.uncertainty <= half_pixel, "raster.uncertainty",
          config.raster.uncertainty, fmt::format("at most half a pixel ({})", half_pixel));
-  if (!by_centres && config.depth.interpolator != DepthInterpolator::kBarycentric) {
-    throw OptionError(
-        "configuration key 'depth.interpolator' is plane; legal with 'raster.conservative' outer or inner: "
-        "barycentric");
-  }
-  demand(by_centres || !config.hi_z.enabled, "hi_z.enabled", 1,
-         "false with 'raster.conservative' outer or inner");
   const int quads = config.tile_walker.tile_size * config.tile_walker.tile_size / 4;
   demand(config.quad_generator.quads_per_cycle <= quads, "quad_generator.quads_per_cycle",
          config.quad_generator.quads_per_cycle, fmt::format("at most the quads of a tile ({})", quads));

@@ -29,11 +29,12 @@
   BEGIN(raster)                                                                                              \
     PACKAGE(raster., sub_pixel_bits, int, 8, range(4, 8), "bits", function,                                  \
         "fraction bits of a snapped window coordinate", SubPixelBits, HALFSPACE_SUB_PIXEL_BITS)              \
-    KEY(raster., conservative, Conservative, Conservative::kOff, one_of("off", "outer", "inner"), "",        \
+    MODULE(raster., conservative, Conservative, Conservative::kOff, one_of("off", "outer", "inner"), "",     \
         function, "which pixels a triangle has: off = whose centre it covers, outer = that it touches, "     \
-        "inner = that it fills")                                                                             \
-    KEY(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                                 \
-        "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel") \
+        "inner = that it fills", Conservative)                                                               \
+    MODULE(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                              \
+        "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel", \
+        Uncertainty)                                                                                         \
     KEY(raster., samples, int, 1, power_of_two(1, 16), "", function,                                         \
         "of a pixel, each with coverage and depth of its own")                                               \
     KEY(raster., sample_positions, SamplePattern, kStandardSamples, sample_list(), "", function,             \

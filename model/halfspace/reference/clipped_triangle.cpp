@@ -19,19 +19,32 @@ Fate draw_piece(const std::array<Corner, 3>& corners, const DrawState& draw, dou
     piece.color[i] = corners[i].color;
   }
   const Int128 area = twice_area(piece.grid[0], piece.grid[1], piece.grid[2]);
-  if (area == 0) return Fate::kDegenerate;
-  const bool front = (area > 0) == draw.command.has(Flag::kFrontPositiveArea);
+  const bool by_touch = draw.options.pixels == Pixels::kTouched;
+  if (area == 0 && !by_touch) return Fate::kDegenerate;
+  // A triangle without area faces back, and has the depth of its first vertex.
+  const bool front = area != 0 && (area > 0) == draw.command.has(Flag::kFrontPositiveArea);
+  if (area == 0) {
+    for (std::size_t i = 1; i < 3; ++i) window[i].z = piece.depth[i] = window[0].z;
+  }
   if (draw.command.has(front ? Flag::kCullFront : Flag::kCullBack)) return Fate::kCulled;
 
   piece.subpixel_bits = bits;
   piece.rule = draw.rule;
-  piece.bounds = intersect(bounding_box(piece.grid, bits), draw.window);
+  piece.pixels = draw.options.pixels;
+  piece.uncertainty = draw.options.uncertainty;
+  PixelRect box = bounding_box(piece.grid, bits);
+  if (by_touch) box = {box.first_x - 1, box.first_y - 1, box.end_x + 1, box.end_y + 1};
+  piece.bounds = intersect(box, draw.window);
   piece.plane = depth_plane(window);
   std::vector<Fragment> fragments;
   cover(piece, fragments);
   const double offset =
       polygon_offset(depth_plane(on_grid(window, bits)), largest_depth, draw.command, draw.storage);
-  for (Fragment& f : fragments) f.depth = offset_and_clamped(f.depth, offset, draw.command);
+  const auto [least, most] = std::minmax({piece.depth[0], piece.depth[1], piece.depth[2]});
+  for (Fragment& f : fragments) {
+    if (by_touch) f.depth = std::clamp(f.depth, least, most);  // the centre may be outside
+    f.depth = offset_and_clamped(f.depth, offset, draw.command);
+  }
   drawn.pieces.push_back(std::move(fragments));
   return Fate::kDrawn;
 }

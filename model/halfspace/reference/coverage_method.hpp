@@ -15,11 +15,15 @@ namespace halfspace::reference {
 
 /// A triangle in window coordinates.
 struct Piece {
-  GridTriangle grid;  ///< on the grid of 1/2^subpixel_bits pixel, with area, either way round
+  GridTriangle grid;  ///< on the grid of 1/2^subpixel_bits pixel, either way round; with area but for touched
+                      ///< pixels
   int subpixel_bits = 8;
   TieRule rule = TieRule::kTopLeft;
-  PixelRect bounds;                  ///< the pixels that may be drawn and that its box touches; not below 0
-  DepthPlane plane;                  ///< through the vertices before snapping
+  Pixels pixels = Pixels::kCentres;
+  int uncertainty = 0;  ///< of squares, in sub-pixels
+  PixelRect bounds;     ///< the pixels that may be drawn and that its box touches, or that lie next to one of
+                        ///< these; not below 0
+  DepthPlane plane;     ///< through the vertices before snapping
   std::array<double, 3> depth = {};  ///< of the vertices
   std::array<Color, 3> color = {};   ///< of the vertices
 

@@ -1,4 +1,4 @@
-/// `exact`: coverage by its definition.
+/// `exact`: coverage by its definition, of pixel centres or of pixels.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace halfspace::reference {
 
-/// Asks covers() for each pixel of the bounding box.
+/// Asks covers(), touches() or fills() for each pixel of the bounding box.
 void cover_exactly(const Piece& piece, std::vector<Fragment>& fragments);
 
 }  // namespace halfspace::reference

@@ -15,11 +15,22 @@ enum class LateZ {
   kNoWrite,  ///< it tests early, and does not write
 };
 
+/// Which pixels a triangle has.
+enum class Pixels {
+  kCentres,  ///< whose centres it covers
+  kTouched,  ///< that have a point of it
+  kFilled,   ///< that lie in it
+};
+
 struct Options {
   std::string_view method = "exact";           ///< one of methods(); anything else throws InputError
   std::optional<TieRule> rule = std::nullopt;  ///< of all draws; none: that of each draw
   int subpixel_bits = 8;                       ///< 4 to 8; anything else throws InputError
   LateZ late_z = LateZ::kOpaque;
+  Pixels pixels =
+      Pixels::kCentres;  ///< another only with the method `exact`; anything else throws InputError
+  int uncertainty = 0;   ///< of touched and filled pixels: how much larger than a pixel its square is on each
+                         ///< side, in sub-pixels
   double guard_band = 32;  ///< times the clip volume, in x and in y
   double window_limit =
       32767;  ///< pixels each way from the window origin; tightens the guard band where needed

@@ -280,6 +280,9 @@ Counters& Counters::operator+=(const Counters& other) {
 }
 
 std::vector<Surface> rasterize(const Frame& frame, const Options& options, Observer* observer) {
+  require(options.pixels == Pixels::kCentres || options.method == "exact",
+          "pixels: not those whose centres are covered; legal for '" + std::string(options.method) +
+              "': centres, or the method 'exact'");
   return rasterize(frame, options, method_of(options.method), observer);
 }
 

@@ -16,8 +16,9 @@ inline double depth_bound(const Precision& precision, DepthInterpolator interpol
                           const std::array<float, 3>& z, const ExactPlane& plane,
                           const ExactPlane::Error& error) {
   const DepthFormat format = precision.format;
-  // The front end resolves depths that are tiny beside the largest vertex, where samples are at the centres.
-  const bool by_sample = precision.samples.is_centre();
+  // The front end resolves depths that are tiny beside the largest vertex, where it covers centres and
+  // samples are there.
+  const bool by_sample = precision.samples.is_centre() && precision.conservative == Conservative::kOff;
   const auto [least, most] = std::minmax({z[0], z[1], z[2]});
   const double vertex = std::max(std::abs(least), std::abs(most));
   const double largest = std::ldexp(1.0, std::ilogb(std::max(vertex, plane.offset())) + 1);

@@ -65,8 +65,11 @@ class ExactPlane {
     double ulps;
     double beyond;  ///< how far it is outside the range of the vertices, in the same unit
   };
-  [[nodiscard]] Error error(std::int64_t x, std::int64_t y, std::uint32_t code) const {
-    const mpz_class exact = std::clamp<mpz_class>(origin_ + dx_ * x + dy_ * y, 0, one_);
+  /// `kept`: depth is kept within the range of the vertices, where the plane leaves it outside the triangle.
+  [[nodiscard]] Error error(std::int64_t x, std::int64_t y, std::uint32_t code, bool kept = false) const {
+    const mpz_class zero = 0;
+    const mpz_class exact =
+        std::clamp<mpz_class>(origin_ + dx_ * x + dy_ * y, kept ? least_ : zero, kept ? most_ : one_);
     const double depth = exact.get_d() / one_.get_d();
     // A depth just below a power of two may have been rounded to it.
     const int exponent = std::max(depth == 0 ? -126 : std::ilogb(depth * (1 - 0x1p-52)), -126);

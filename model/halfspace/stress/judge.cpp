@@ -84,10 +84,11 @@ void count(std::int32_t expected, std::uint32_t got, Tally& tally) {
   (more > 0 ? tally.extra : tally.missing) += static_cast<std::uint64_t>(std::abs(more));
 }
 
-/// Whether depth is that of the plane at the centre of a pixel. Where an outer pixel's centre is not covered,
-/// it is that of some point of the triangle.
-bool is_of_centre(const reference::GridTriangle& triangle, const reference::GridPoint& centre,
-                  const Precision& precision) {
+/// Whether the triangle has the centre of a pixel that it has. Where it has not, the depth of an outer pixel
+/// is that of the plane, kept within the range of the vertices, or with cut weights that of some point of the
+/// triangle.
+bool has_centre(const reference::GridTriangle& triangle, const reference::GridPoint& centre,
+                const Precision& precision) {
   const reference::PixelSquare point{.least = centre, .most = centre};
   return precision.conservative != Conservative::kOuter || reference::fills(triangle, point);
 }
@@ -114,8 +115,9 @@ void each_depth(const Case& made, const Precision& precision, const DepthLaw& la
     if (!plane.has_area()) {
       continue;
     }
-    ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at]);
-    if (!is_of_centre(triangle.grid, sample, precision)) {
+    const bool outside = !has_centre(triangle.grid, sample, precision);
+    ExactPlane::Error error = plane.error(sample.x, sample.y, picture.codes[at], outside);
+    if (outside && law.interpolator == DepthInterpolator::kBarycentric) {
       error.ulps = error.beyond;
     }
     const double bound =

@@ -7,6 +7,9 @@
 /// A word is a signed number below 1 with its binary point behind the sign. A short one has 32 bits: of a
 /// vertex depth on unorm surfaces, as it is. A long one has 64, for float32 surfaces and for vertex depths
 /// outside [0, 1]; in it 1 is 2^DepthEquation::exponent.
+///
+/// Where a pixel counts whose centre is outside the triangle, the plane there may be far beyond the vertices.
+/// A wide word holds it, whichever of the two it is a word of: 106 bits, those that gradients leave of 128.
 #pragma once
 
 #include <array>
@@ -22,6 +25,7 @@ namespace halfspace {
 
 using ShortWord = std::uint32_t;
 using LongWord = std::uint64_t;
+using WideWord = Modular;
 
 inline constexpr int kGradientFraction = 22;  ///< bits of a gradient below those of the word
 
@@ -34,6 +38,13 @@ constexpr std::int64_t word_of_unorm(std::int64_t z, int exponent) {
   return z << (kLongWordFraction - kVertexDepthBits - exponent);
 }
 
+/// A word as a signed number.
+constexpr std::int32_t signed_word(ShortWord word) { return static_cast<std::int32_t>(word); }
+constexpr std::int64_t signed_word(LongWord word) { return static_cast<std::int64_t>(word); }
+constexpr Int128 signed_word(WideWord word) {
+  return static_cast<Int128>(word << kGradientFraction) >> kGradientFraction;
+}
+
 /// The plane at one tile.
 template <class Word>
 struct TilePlane {
@@ -42,8 +53,8 @@ struct TilePlane {
   Word dy;
 
   /// At pixel (x, y) of the tile.
-  [[nodiscard]] std::make_signed_t<Word> at(std::uint32_t x, std::uint32_t y) const {
-    return static_cast<std::make_signed_t<Word>>(origin + x * dx + y * dy);
+  [[nodiscard]] auto at(std::uint32_t x, std::uint32_t y) const {
+    return signed_word(static_cast<Word>(origin + x * dx + y * dy));
   }
 };
 

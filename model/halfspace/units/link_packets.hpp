@@ -23,6 +23,7 @@ struct ScreenTrianglePacket {
   std::array<std::int32_t, 3> y{};
   std::array<std::int64_t, 3> z{};
   std::int64_t offset = 0;
+  std::uint8_t by_square = 0;  ///< drawn by squares, not by centres, where the machine is conservative
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -30,15 +31,18 @@ struct ScreenTrianglePacket {
     visit("y", &ScreenTrianglePacket::y, &Widths::CoordBits, Sign::kSigned);
     visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kSigned);
     visit("offset", &ScreenTrianglePacket::offset, &Widths::VertexDepthBits, Sign::kSigned);
+    visit("by_square", &ScreenTrianglePacket::by_square, &Widths::FlagBits, Sign::kUnsigned);
   }
 };
 
-inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle) {
+/// `conservative` is that of its draw.
+inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle, Conservative conservative) {
   const std::array<ScreenVertex, 3>& v = triangle.v;
   return {.x = {v[0].x, v[1].x, v[2].x},
           .y = {v[0].y, v[1].y, v[2].y},
           .z = {v[0].z, v[1].z, v[2].z},
-          .offset = triangle.offset};
+          .offset = triangle.offset,
+          .by_square = static_cast<std::uint8_t>(conservative == Conservative::kOff ? 0 : 1)};
 }
 
 /// All that the units know of a draw.

@@ -1,6 +1,7 @@
 #include "halfspace/units/z_test.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "halfspace/numerics/conservative.hpp"
 #include "halfspace/units/depth_barycentric.hpp"
@@ -39,7 +40,16 @@ template <int TileSize>
 void interpolate_plane(const DepthEquation& eq, const Coverage& coverage, const EarlyZState& state,
                        TileCodes<TileSize>& codes) {
   const auto interpolate = [&]<class Word>(Word, auto&& code) {
-    interpolate_plane<TileSize, Word>(eq, coverage, state, codes, code);
+    if (state.square_reach <= 0) {
+      interpolate_plane<TileSize, Word>(eq, coverage, state, codes, code);
+      return;
+    }
+    // The centre may be outside: what no word of the vertices holds is beyond all of them.
+    using Signed = decltype(signed_word(Word{}));
+    using Limits = std::numeric_limits<Signed>;
+    interpolate_plane<TileSize, WideWord>(eq, coverage, state, codes, [&](Int128 word) {
+      return code(static_cast<Signed>(std::clamp<Int128>(word, Limits::min(), Limits::max())));
+    });
   };
   if (state.format == DepthFormat::kFloat32) {
     interpolate(LongWord{}, [&](std::int64_t word) {

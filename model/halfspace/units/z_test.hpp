@@ -27,7 +27,7 @@ struct EarlyZState {
   DepthFormat format = DepthFormat::kNone;
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
   int sub_pixel_bits = 8;
-  int square_reach = 0;  ///< as SetupState has it; not 0 with the barycentric interpolator only
+  int square_reach = 0;  ///< as SetupState has it
   SamplePattern samples{};
 };
 

@@ -15,6 +15,9 @@ module setup_edges_adders
   input logic [FillRuleBits-1:0] fill_rule_i
 );
 
+  logic        by_square_i;
+  assign by_square_i = 1'b0;
+
   logic        valid_o;
   edge_t [2:0] e_o;
   step_t [2:0] a_o, b_o;

@@ -61,6 +61,7 @@ module setup_edges_properties
     .x_first_i          (x_first_i),
     .y_first_i          (y_first_i),
     .fill_rule_i        (rule_i),
+    .by_square_i        (1'b0),
     .valid_o            (valid),
     .e_o                (e),
     .a_o                (a),

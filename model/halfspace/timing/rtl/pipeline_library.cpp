@@ -44,9 +44,12 @@ Symbol* symbol(void* library, const fs::path& file, const char* name) {
 
 /// What no RTL does, whichever is built.
 void check_config(const Config& config) {
-  if (config.raster.conservative != Conservative::kOff) {
-    throw OptionError(fmt::format("configuration key 'raster.conservative' is {}; legal for the RTL: off",
-                                  config.raster.conservative == Conservative::kOuter ? "outer" : "inner"));
+  if (config.raster.conservative == Conservative::kOuter &&
+      config.depth.interpolator != DepthInterpolator::kBarycentric) {
+    throw OptionError(
+        "configuration key 'depth.interpolator' is plane; legal for the RTL with 'raster.conservative' "
+        "outer: "
+        "barycentric");
   }
 }
 
