@@ -21,6 +21,7 @@
 #include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
+#include "halfspace/report/pixel_quad_file.hpp"
 #include "halfspace/report/recorder.hpp"
 #include "halfspace/report/result_files.hpp"
 #include "halfspace/report/step_recorder.hpp"
@@ -199,6 +200,7 @@ void time_runs(const RunCommand& command, Fidelity fidelity, const Frame& frame,
   RunOptions options = shown;
   options.cycle_observer = nullptr;
   options.quad_merging.reset();
+  options.pixel_rate = false;
   options.vcd.clear();
   options.wave.clear();
   options.watch = {.count_pixels = false, .core = shown.watch.core, .threads = shown.watch.threads};
@@ -211,6 +213,7 @@ RunResult run_without(Fidelity fidelity, const Frame& frame, const Config& confi
   RunObserver observer(frame, config, {}, "");
   RunOptions options = with;
   options.cycle_observer = nullptr;
+  options.pixel_rate = false;
   options.vcd.clear();
   options.wave.clear();
   options.watch = {
@@ -275,6 +278,12 @@ ExitStatus run_command(const RunCommand& command) {
     steps.emplace(config, folder->file("triangles.npy"), folder->file("steps.npy"));
     both.emplace(observer, *steps);
   }
+  options.pixel_rate = true;
+  std::optional<PixelQuadFile> pixel_quads;
+  if (command.quads && config.raster.samples > 1) {
+    pixel_quads.emplace(folder->file("pixel_quads.npy"));
+    options.pixel_quad = [&](const PixelQuadEvent& quad) { pixel_quads->write(quad); };
+  }
   const bool pictures = command.wants_pictures();
   options.watch = {.keep_visible = pictures,
                    .count_pixels = folder.has_value(),
@@ -286,6 +295,9 @@ ExitStatus run_command(const RunCommand& command) {
   observer.finish();
   if (steps) {
     steps->finish();
+  }
+  if (pixel_quads) {
+    pixel_quads->finish();
   }
   if (timeline) {
     timeline->finish(result.cycles->cycles);

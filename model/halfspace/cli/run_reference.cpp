@@ -158,8 +158,13 @@ class ResultBuilder final : public reference::Observer {
     }
   }
 
-  RunResult result{
-      .frame = {}, .cycles = {}, .times = {}, .rtl = {}, .quad_merging = {}, .reference = ReferenceRun{}};
+  RunResult result{.frame = {},
+                   .cycles = {},
+                   .times = {},
+                   .rtl = {},
+                   .quad_merging = {},
+                   .pixel_rate = {},
+                   .reference = ReferenceRun{}};
 
  private:
   void record(std::uint32_t draw, std::uint32_t triangle, std::vector<reference::Quad> quads) {

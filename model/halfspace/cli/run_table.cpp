@@ -92,6 +92,13 @@ void print_quad_merging(const QuadMergingResult& merging) {
                   c.whole, c.alone, c.not_adjacent, c.other_facing, c.overlap, c.missed));
 }
 
+void print_pixel_rate(const PixelRateCounters& c) {
+  row("shading", c.quads,
+      fmt::format("quads once a pixel, not {} once a sample; {} pixels, {} helpers, {:.1f}% with all samples "
+                  "covered",
+                  c.sample_quads, c.pixels, c.helpers, percent(c.at_centre, c.pixels)));
+}
+
 /// What the scoreboard of a verilated run says. Returns whether RTL and model agree.
 bool print_report(const rtl::PacketReport& report) {
   row("model", report.compared,
@@ -120,6 +127,9 @@ bool print_result(const Frame& frame, const RunResult& result) {
   }
   if (result.quad_merging) {
     print_quad_merging(*result.quad_merging);
+  }
+  if (result.pixel_rate) {
+    print_pixel_rate(result.pixel_rate->frame);
   }
   return !result.rtl || print_report(*result.rtl);
 }

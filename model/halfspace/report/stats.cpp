@@ -115,6 +115,13 @@ Json quad_merging_json(const QuadMergingCounters& counters) {
   return json;
 }
 
+Json pixel_rate_json(const PixelRateCounters& counters) {
+  Json json;
+  PixelRateCounters::fields(
+      [&](const char* name, const char* /*help*/, auto member) { json[name] = counters.*member; });
+  return json;
+}
+
 Json frame_json(const Frame& frame, const FrameResult& result, bool of_reference) {
   Json json = {{"name", frame.name},
                {"targets", frame.targets.size()},
@@ -207,6 +214,9 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
     json["frame"]["quad_merging"] = quad_merging_json(run.quad_merging->frame);
     json["frame"]["quad_merging"]["buffer"] = run.quad_merging->buffer;
   }
+  if (run.pixel_rate) {
+    json["frame"]["pixel_rate"] = pixel_rate_json(run.pixel_rate->frame);
+  }
   json["surfaces"] = Json::array();
   for (std::size_t i = 0; i < result.surfaces.size(); ++i) {
     const Surface& surface = result.surfaces[i];
@@ -229,6 +239,9 @@ void write_stats(const std::filesystem::path& path, const Frame& frame, const Co
                              {"counters", counters_json(draw.counters, of_reference)}});
     if (run.cycles) {
       json["draws"].back()["time"] = draw_time_json(run.cycles->draws[i], draw.counters.early_z);
+    }
+    if (run.pixel_rate) {
+      json["draws"].back()["pixel_rate"] = pixel_rate_json(run.pixel_rate->draws[i]);
     }
     if (run.quad_merging) {
       json["draws"].back()["quad_merging"] = quad_merging_json(run.quad_merging->draws[i]);

@@ -55,6 +55,7 @@ RunResult timed(TimedResult result) {
           .times = std::move(result.times),
           .rtl = {},
           .quad_merging = {},
+          .pixel_rate = {},
           .reference = {}};
 }
 
@@ -79,6 +80,7 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
               .times = {},
               .rtl = {},
               .quad_merging = {},
+              .pixel_rate = {},
               .reference = {}};
     case Fidelity::kRecurrence:
       return timed(run_recurrence(frame, config, engine));
@@ -88,6 +90,10 @@ RunResult run_engine(Fidelity fidelity, const Frame& frame, const Config& config
       return verilated(frame, config, engine, options);
   }
   throw std::logic_error("a fidelity that is not in HALFSPACE_FIDELITIES");
+}
+
+std::size_t draw_count(const Frame& frame) {
+  return static_cast<std::size_t>(std::ranges::count(frame.commands, CommandKind::kDraw, &Command::kind));
 }
 
 }  // namespace
@@ -120,24 +126,35 @@ std::unique_ptr<rtl::VerilatedPipeline> verilated_pipeline(const Config& config,
 
 RunResult run(Fidelity fidelity, const Frame& frame, const Config& config, const RunOptions& options) {
   check_options(fidelity, options);
-  if (!options.quad_merging) {
-    return run_engine(fidelity, frame, config, options);
-  }
-  if (!sample_pattern(config).is_centre()) {
+  const SamplePattern samples = sample_pattern(config);
+  if (options.quad_merging && !samples.is_centre()) {
     throw OptionError(
         fmt::format("configuration key 'raster.samples' is {}; legal with quad merging: 1, at the "
                     "pixel centre",
                     config.raster.samples));
   }
-  QuadMerging merging(frame, *options.quad_merging);
   RunOptions watched = options;
   std::optional<ObserverPair> both;
-  if (options.watch.observer != nullptr) {
-    both.emplace(*options.watch.observer, merging);
+  const auto watch = [&](PacketObserver& stage) {
+    if (options.watch.observer != nullptr) {
+      both.emplace(*options.watch.observer, stage);
+    }
+    watched.watch.observer = both ? static_cast<PacketObserver*>(&*both) : &stage;
+  };
+  std::optional<QuadMerging> merging;
+  std::optional<PixelRate> pixel_rate;
+  if (options.quad_merging) {
+    watch(merging.emplace(frame, *options.quad_merging));
+  } else if (options.pixel_rate && samples.count > 1) {
+    watch(pixel_rate.emplace(draw_count(frame), config.tile_walker.tile_size, samples, options.pixel_quad));
   }
-  watched.watch.observer = both ? static_cast<PacketObserver*>(&*both) : &merging;
   RunResult result = run_engine(fidelity, frame, config, watched);
-  result.quad_merging = merging.finish();
+  if (merging) {
+    result.quad_merging = merging->finish();
+  }
+  if (pixel_rate) {
+    result.pixel_rate = pixel_rate->finish();
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "halfspace/config/config.hpp"
 #include "halfspace/machine/packet_observer.hpp"
+#include "halfspace/machine/pixel_rate.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
 #include "halfspace/timing/cycle_observer.hpp"
@@ -29,11 +30,13 @@ struct RunOptions {
   bool packet_times = false;                ///< fill RunResult::times; needs packets
   CycleObserver* cycle_observer = nullptr;  ///< needs a timeline; must outlive the run
   std::optional<int> quad_merging;          ///< what merging would save, with a buffer of so many quads
-  std::filesystem::path vcd;                ///< waveform of links and stages, with or without .vcd; needs vcd
-  std::filesystem::path rtl_folder;         ///< where `make rtl` put the verilated pipelines
-  std::uint64_t rtl_seed = 0;               ///< decides what the RTL's registers hold before reset
-  bool rtl_every_cycle = false;             ///< evaluate the RTL also in cycles in which nothing can change
-  std::filesystem::path wave;               ///< FST waveform, of every cycle; needs rtl
+  bool pixel_rate = false;      ///< what a shader once a pixel is given, where a pixel has several samples
+  PixelRate::Shade pixel_quad;  ///< sees each quad of these pixels
+  std::filesystem::path vcd;    ///< waveform of links and stages, with or without .vcd; needs vcd
+  std::filesystem::path rtl_folder;  ///< where `make rtl` put the verilated pipelines
+  std::uint64_t rtl_seed = 0;        ///< decides what the RTL's registers hold before reset
+  bool rtl_every_cycle = false;      ///< evaluate the RTL also in cycles in which nothing can change
+  std::filesystem::path wave;        ///< FST waveform, of every cycle; needs rtl
 };
 
 /// The verilated pipeline of `config`, as the options want it. Throws InputError where none fits.

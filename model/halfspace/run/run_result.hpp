@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "halfspace/machine/frame_result.hpp"
+#include "halfspace/machine/pixel_rate.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
 #include "halfspace/timing/rtl/packet_check.hpp"
 #include "halfspace/whatif/quad_merging.hpp"
@@ -66,6 +67,7 @@ struct RunResult {
   PacketTimes times;                              ///< on request, where the fidelity has time
   std::optional<rtl::PacketReport> rtl;           ///< of `rtl`: where it differs from the model
   std::optional<QuadMergingResult> quad_merging;  ///< on request
+  std::optional<PixelRateResult> pixel_rate;      ///< on request, where a pixel has several samples
   std::optional<ReferenceRun> reference;          ///< none: the machine made it
 };
 
