@@ -19,6 +19,7 @@ struct SetupModel {
   int block_size = 32;
   int interpolator_number = 1;
   bool hi_z = false;
+  bool thin_lines = false;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);

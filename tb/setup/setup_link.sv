@@ -8,6 +8,7 @@ module setup_link
   parameter int unsigned Interval = 1,
   parameter int unsigned Interpolator = 1,
   parameter bit HiZ = 1'b0,
+  parameter bit ThinLines = 1'b0,
   // Bits of both links.
   localparam int unsigned InBits = $bits(screen_triangle_t) + $bits(draw_state_t),
   localparam int unsigned OutBits =
@@ -41,7 +42,8 @@ module setup_link
     .FifoDepth    (FifoDepth),
     .Interval     (Interval),
     .Interpolator (Interpolator),
-    .HiZ          (HiZ)
+    .HiZ          (HiZ),
+    .ThinLines    (ThinLines)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),

@@ -6,55 +6,15 @@
 #include <utility>
 
 #include "common/random.hpp"
+#include "line_stimulus.hpp"
 
 namespace halfspace::tb {
 namespace {
 
-constexpr std::int32_t kScreen = 16383;  // last pixel
 constexpr std::array<std::uint8_t, 4> kFormats = {0, 1, 2, 4};
-
-struct Point {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-
-/// The guard band of a configuration.
-struct Band {
-  explicit Band(const Widths& widths)
-      : one(std::int64_t{1} << widths.SubPixelBits),
-        low(-(std::int64_t{1} << (widths.CoordBits - 1))),
-        high(-low - 1) {}
-
-  [[nodiscard]] Point clamp(Point p) const {
-    return {std::clamp(p.x, low, high), std::clamp(p.y, low, high)};
-  }
-  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const {
-    return {x * one + one / 2, y * one + one / 2};
-  }
-
-  std::int64_t one;  ///< a pixel
-  std::int64_t low;
-  std::int64_t high;
-};
-
-void set_vertices(SetupJob& job, const std::array<Point, 3>& points) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    job.triangle.x[i] = static_cast<std::int32_t>(points[i].x);
-    job.triangle.y[i] = static_cast<std::int32_t>(points[i].y);
-  }
-}
 
 /// A number for each job, in a field that only passes through.
 void number(SetupJob& job, std::uint64_t index) { job.state.first_tile = static_cast<std::uint32_t>(index); }
-
-/// The whole screen, nothing culled.
-DrawStatePacket open_state(std::uint8_t format) {
-  DrawStatePacket state;
-  state.x_last = state.y_last = kScreen;
-  state.format = format;
-  state.most_code = largest_code(static_cast<DepthFormat>(format));
-  return state;
-}
 
 std::uint32_t largest_depth(std::uint8_t format) {
   const auto depth_format = static_cast<DepthFormat>(format);
@@ -279,7 +239,12 @@ void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& wid
 class Generator {
  public:
   Generator(const SetupModel& model, std::uint64_t seed)
-      : widths_(model.widths()), band_(widths_), block_(model.block_size), random_(seed) {}
+      : widths_(model.widths()),
+        band_(widths_),
+        block_(model.block_size),
+        thin_lines_(model.thin_lines),
+        without_depth_(model.interpolator() == DepthInterpolator::kBarycentric),
+        random_(seed) {}
 
   SetupJob next() {
     if (random_.below(4) == 0) {
@@ -298,6 +263,9 @@ class Generator {
     last_ = points;
     set_vertices(job, points);
     depths(job);
+    if (thin_lines_ && (state_.format == 0 || !without_depth_) && one_in(2)) {
+      make_random_line(job, band_, centre_, block_, random_);
+    }
     return job;
   }
 
@@ -454,6 +422,8 @@ class Generator {
   Widths widths_;
   Band band_;
   int block_;
+  bool thin_lines_;
+  bool without_depth_;  ///< lines, that is
   Random random_;
   std::uint64_t count_ = 0;
   DrawStatePacket state_ = open_state(0);
@@ -533,6 +503,9 @@ std::vector<SetupJob> directed_jobs(const SetupModel& model) {
   add_depths(jobs, band);
   add_far_depths(jobs, band);
   add_steep(jobs, band);
+  if (model.thin_lines && model.interpolator() == DepthInterpolator::kPlane) {
+    add_lines(jobs, band);
+  }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     number(jobs[i], i);
   }
