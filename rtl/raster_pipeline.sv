@@ -14,6 +14,8 @@ module raster_pipeline
   parameter int unsigned SetupQueue = 8,
   parameter int unsigned SetupInterval = 1,
   parameter int unsigned SetupFifo = 40,
+  /// 1: thin lines are drawn too.
+  parameter bit          ThinLines = 1'b0,
   parameter bit          TrivialReject = 1'b1,
   parameter bit          SampleReject = 1'b0,
   parameter int unsigned WalkLevels = 2,
@@ -130,7 +132,8 @@ module raster_pipeline
     .FifoDepth    (SetupFifo),
     .Interval     (SetupInterval),
     .Interpolator (Interpolator),
-    .HiZ          (HiZ)
+    .HiZ          (HiZ),
+    .ThinLines    (ThinLines)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),

@@ -70,6 +70,10 @@ package raster_pkg;
   parameter int unsigned FlagBits = 1;
   // bit 0: bottom edges own the samples on them, not top ones; bit 1: right edges, not left ones
   parameter int unsigned FillRuleBits = 2;
+  // 0: a triangle; else a thin line, by its rule: 1 bresenham, 2 diamond exit, 3 midpoint, 4 DDA
+  parameter int unsigned LineRuleBits = 3;
+  // pixels that a thin line has in a column, at most 64
+  parameter int unsigned LineWidthBits = 7;
   // depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits
   parameter int unsigned VertexDepthBits = 48;
   // depth with the binary point behind the sign, on a scale of the triangle
@@ -141,6 +145,8 @@ package raster_pkg;
     vertex_depth_t [2:0] z;
     vertex_depth_t offset;
     logic [FlagBits-1:0] by_square;
+    logic [LineRuleBits-1:0] line_rule;
+    logic [LineWidthBits-1:0] line_width;
   } screen_triangle_t;
 
   // the state of a draw, as it travels with its triangles

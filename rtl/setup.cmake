@@ -6,5 +6,8 @@ foreach(sub_pixel_bits RANGE 4 8)
     halfspace_lint(t${tile_size}_s${sub_pixel_bits}_i${interval}_hi_z -DHALFSPACE_TILE_SIZE=${tile_size}
                    -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -DHALFSPACE_BLOCK_SIZE=${block_size} -GInterval=${interval}
                    -GHiZ=1'b1)
+    halfspace_lint(t${tile_size}_s${sub_pixel_bits}_i${interval}_lines -DHALFSPACE_TILE_SIZE=${tile_size}
+                   -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -DHALFSPACE_BLOCK_SIZE=${block_size} -GInterval=${interval}
+                   -GHiZ=1'b1 -GThinLines=1'b1)
   endforeach()
 endforeach()

@@ -8,6 +8,10 @@ credit_fifo.sv
 pipe_register.sv
 setup_cull.sv
 setup_edges.sv
+delay_memory.sv
+line_columns.sv
+line_slope.sv
+line_edges.sv
 setup_depth.sv
 reciprocal_stage.sv
 reciprocal.sv

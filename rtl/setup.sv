@@ -26,7 +26,9 @@ module setup
   /// Interpolator of depth, 0 plane or 1 barycentric: which equation is made.
   parameter int unsigned Interpolator = Plane,
   /// 1: the plane for hi_z is made, where the interpolator is the plane. 0: it is 0.
-  parameter bit HiZ = 1'b0
+  parameter bit HiZ = 1'b0,
+  /// 1: thin lines are drawn too. 0: every triangle_i.line_rule is 0.
+  parameter bit ThinLines = 1'b0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -50,10 +52,34 @@ module setup
 );
 
   // Cull stage and queue.
-  logic     taken, judged, verdict_valid, decide, queue_empty;
-  verdict_t judged_verdict, verdict;
+  typedef struct packed {
+    line_t    line;
+    verdict_t verdict;
+  } judged_t;
 
-  assign taken = triangle_valid_i & triangle_ready_o;
+  logic             taken, judged, verdict_valid, decide, queue_empty;
+  screen_triangle_t triangle_in, judged_triangle;
+  verdict_t         culled_verdict, verdict;
+  line_t            line;
+  judged_t          judged_d, judged_q;
+
+  // Without thin lines the queue has no room for what is known of one.
+  localparam int unsigned QueueBits = ThinLines ? $bits(judged_t) : $bits(verdict_t);
+  logic [QueueBits-1:0] queue_in, queue_out;
+  assign queue_in = QueueBits'(judged_d);
+  assign judged_q = judged_t'(queue_out);
+
+  assign taken   = triangle_valid_i & triangle_ready_o;
+  assign verdict = judged_q.verdict;
+  assign line    = judged_q.line;
+
+  always_comb begin
+    triangle_in = triangle_i;
+    if (!ThinLines) begin
+      triangle_in.line_rule  = '0;
+      triangle_in.line_width = '0;
+    end
+  end
 
   setup_cull #(
     .Conservative (Conservative),
@@ -62,14 +88,85 @@ module setup
     .clk_i      (clk_i),
     .rst_ni     (rst_ni),
     .valid_i    (taken),
-    .triangle_i (triangle_i),
+    .triangle_i (triangle_in),
     .state_i    (state_i),
     .valid_o    (judged),
-    .verdict_o  (judged_verdict)
+    .verdict_o  (culled_verdict),
+    .triangle_o (judged_triangle)
   );
 
+  if (ThinLines) begin : gen_columns
+    line_t                columns;
+    logic                 drawn;
+    logic [CoordBits-1:0] length;
+    bounds_t              bounds, limits;
+
+    assign limits = '{
+      x_first: state_i.x_first,
+      x_last:  state_i.x_last,
+      y_first: state_i.y_first,
+      y_last:  state_i.y_last
+    };
+
+    line_columns u_columns (
+      .clk_i      (clk_i),
+      .rst_ni     (rst_ni),
+      .valid_i    (taken),
+      .x_i        (triangle_in.x[1:0]),
+      .y_i        (triangle_in.y[1:0]),
+      .rule_i     (line_rule_e'(triangle_in.line_rule)),
+      .width_i    (triangle_in.line_width),
+      .limits_i   (limits),
+      .line_o     (columns),
+      .length_o   (length),
+      .drawn_o    (drawn),
+      .bounds_o   (bounds)
+    );
+
+    // The depth of a line: start and end, and a vertex beside the start, turned to positive area.
+    coord_t     beside_x, beside_y;
+    logic       turned;
+    logic [1:0] beside, stop;
+    assign turned   = line_is_turned(columns.x_major, columns.left, columns.up,
+                                     judged_triangle.x[0][CoordBits-1],
+                                     judged_triangle.y[0][CoordBits-1]);
+    assign beside   = turned ? 2'd1 : 2'd2;
+    assign stop     = turned ? 2'd2 : 2'd1;
+    assign beside_x = columns.x_major ? judged_triangle.x[0] : towards_zero(judged_triangle.x[0]);
+    assign beside_y = columns.x_major ? towards_zero(judged_triangle.y[0]) : judged_triangle.y[0];
+
+    always_comb begin
+      judged_d.line    = columns;
+      judged_d.verdict = culled_verdict;
+      if (judged_triangle.line_rule != '0) begin
+        judged_d.verdict.drawn              = drawn & !culled_verdict.state.empty;
+        judged_d.verdict.bounds             = bounds;
+        judged_d.verdict.area2              = area_t'({length, {SubPixelBits{1'b0}}});
+        judged_d.verdict.triangle           = judged_triangle;
+        judged_d.verdict.triangle.x[stop]   = judged_triangle.x[1];
+        judged_d.verdict.triangle.y[stop]   = judged_triangle.y[1];
+        judged_d.verdict.triangle.z[stop]   = judged_triangle.z[1];
+        judged_d.verdict.triangle.x[beside] = beside_x;
+        judged_d.verdict.triangle.y[beside] = beside_y;
+        judged_d.verdict.triangle.z[beside] = judged_triangle.z[0];
+      end
+    end
+  end else begin : gen_no_columns
+    assign judged_d = '{line: '0, verdict: culled_verdict};
+
+    logic unused_triangle;
+    assign unused_triangle = ^{triangle_i.line_rule, triangle_i.line_width, judged_triangle,
+                               judged_d.line};
+
+`ifndef SYNTHESIS
+    NoLines: assert property (@(posedge clk_i) disable iff (!rst_ni)
+        taken |-> triangle_i.line_rule == '0)
+    else $error("a thin line");
+`endif
+  end
+
   credit_fifo #(
-    .Width ($bits(verdict_t)),
+    .Width (QueueBits),
     .Depth (QueueDepth)
   ) u_queue (
     .clk_i           (clk_i),
@@ -77,10 +174,10 @@ module setup
     .reserve_ready_o (triangle_ready_o),
     .reserve_i       (taken),
     .push_i          (judged),
-    .data_i          (judged_verdict),
+    .data_i          (queue_in),
     .pop_valid_o     (verdict_valid),
     .pop_ready_i     (decide),
-    .data_o          (verdict),
+    .data_o          (queue_out),
     .empty_o         (queue_empty)
   );
 
@@ -117,7 +214,7 @@ module setup
   logic has_depth;
   assign has_depth = verdict.state.format != '0;
 
-  // The parts of a slot: at the decision, 4 and 8 cycles later, and last the reciprocal or the gradients, 17 or 34 cycles
+  // The parts of a slot: at the decision, 4 (with ThinLines 16) and 8 cycles later, and last the reciprocal or the gradients, 17 or 34 cycles
   // later.
   typedef struct packed {
     vertex_depth_t [2:0] z;
@@ -184,26 +281,55 @@ module setup
     known_d.state  = verdict.state;
   end
 
-  setup_edges #(
-    .Conservative (Conservative),
-    .Uncertainty  (Uncertainty)
-  ) u_edges (
-    .clk_i              (clk_i),
-    .rst_ni             (rst_ni),
-    .valid_i            (draw),
-    .x_i                (verdict.triangle.x),
-    .y_i                (verdict.triangle.y),
-    .area2_i            (verdict.area2),
-    .x_first_i          (verdict.bounds.x_first),
-    .y_first_i          (verdict.bounds.y_first),
-    .fill_rule_i        (verdict.state.fill_rule),
-    .by_square_i        (verdict.triangle.by_square),
-    .valid_o            (edges_valid),
-    .e_o                (edges_d.e),
-    .a_o                (edges_d.a),
-    .b_o                (edges_d.b),
-    .bias_o             (edges_d.bias)
-  );
+  if (ThinLines) begin : gen_line_edges
+    line_edges #(
+      .Conservative (Conservative),
+      .Uncertainty  (Uncertainty)
+    ) u_edges (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .valid_i     (draw),
+      .x_i         (verdict.triangle.x),
+      .y_i         (verdict.triangle.y),
+      .rule_i      (line_rule_e'(verdict.triangle.line_rule)),
+      .width_i     (verdict.triangle.line_width),
+      .line_i      (line),
+      .area2_i     (verdict.area2),
+      .x_first_i   (verdict.bounds.x_first),
+      .y_first_i   (verdict.bounds.y_first),
+      .fill_rule_i (verdict.state.fill_rule),
+      .by_square_i (verdict.triangle.by_square),
+      .valid_o     (edges_valid),
+      .e_o         (edges_d.e),
+      .a_o         (edges_d.a),
+      .b_o         (edges_d.b),
+      .bias_o      (edges_d.bias)
+    );
+  end else begin : gen_edges
+    setup_edges #(
+      .Conservative (Conservative),
+      .Uncertainty  (Uncertainty)
+    ) u_edges (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .valid_i     (draw),
+      .x_i         (verdict.triangle.x),
+      .y_i         (verdict.triangle.y),
+      .area2_i     (verdict.area2),
+      .x_first_i   (verdict.bounds.x_first),
+      .y_first_i   (verdict.bounds.y_first),
+      .fill_rule_i (verdict.state.fill_rule),
+      .by_square_i (verdict.triangle.by_square),
+      .valid_o     (edges_valid),
+      .e_o         (edges_d.e),
+      .a_o         (edges_d.a),
+      .b_o         (edges_d.b),
+      .bias_o      (edges_d.bias)
+    );
+
+    logic unused_line;
+    assign unused_line = ^{line, verdict.triangle.line_rule, verdict.triangle.line_width};
+  end
 
   setup_depth u_depth (
     .clk_i        (clk_i),

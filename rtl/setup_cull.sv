@@ -26,7 +26,8 @@ module setup_cull
 
   // Three cycles later.
   output logic             valid_o,
-  output verdict_t         verdict_o
+  output verdict_t         verdict_o,
+  output screen_triangle_t triangle_o // as it came
 );
 
   // Of the vertex pairs (0, 1), (0, 2) and (1, 2): second less first.
@@ -239,8 +240,10 @@ module setup_cull
       y_first: sized_q.y_first[PixelBits-1:0],
       y_last:  sized_q.y_last[PixelBits-1:0]
     };
-    verdict_o.triangle.offset    = sized_q.triangle.offset;
-    verdict_o.triangle.by_square = sized_q.triangle.by_square;
+    verdict_o.triangle.offset     = sized_q.triangle.offset;
+    verdict_o.triangle.by_square  = sized_q.triangle.by_square;
+    verdict_o.triangle.line_rule  = sized_q.triangle.line_rule;
+    verdict_o.triangle.line_width = sized_q.triangle.line_width;
     for (int unsigned i = 0; i < 3; i++) begin
       verdict_o.triangle.x[i] = pick(sized_q.triangle.x, order[i]);
       verdict_o.triangle.y[i] = pick(sized_q.triangle.y, order[i]);
@@ -248,5 +251,7 @@ module setup_cull
                                 order[i] == 2'd1 ? sized_q.triangle.z[1] : sized_q.triangle.z[2];
     end
   end
+
+  assign triangle_o = sized_q.triangle;
 
 endmodule

@@ -12,6 +12,8 @@ module setup_edges
   import setup_pkg::*;
   import square_pkg::*;
 #(
+  /// Bits of a coordinate, signed. With StepBits differences from a vertex must fit them as well.
+  parameter int unsigned VertexBits = CoordBits,
   /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner.
   parameter int unsigned Conservative = Centres,
   /// How much larger than the pixel its square is on each side, in sub-pixels.
@@ -21,8 +23,8 @@ module setup_edges
   input  logic                    rst_ni,
 
   input  logic                    valid_i,
-  input  coord_t [2:0]            x_i,
-  input  coord_t [2:0]            y_i,
+  input  logic [2:0] [VertexBits-1:0] x_i,
+  input  logic [2:0] [VertexBits-1:0] y_i,
   input  area_t                   area2_i,
   input  logic [PixelBits-1:0]    x_first_i, // of the bounds
   input  logic [PixelBits-1:0]    y_first_i,
@@ -45,6 +47,10 @@ module setup_edges
   // The centre of the first pixel of its block.
   function automatic step_t start(pixel_t pixel);
     return step_t'({1'b0, pixel & ~InBlock, 1'b1, {(SubPixelBits - 1){1'b0}}});
+  endfunction
+
+  function automatic step_t widened(logic [VertexBits-1:0] c);
+    return step_t'($signed(c));
   endfunction
 
   // Bit i: register i holds a triangle.
@@ -76,11 +82,11 @@ module setup_edges
   always_ff @(posedge clk_i) begin
     if (valid_i) begin
       for (int unsigned i = 0; i < 3; i++) begin
-        steps_q.a[i] <= step_t'(y_i[(i+1)%3]) - step_t'(y_i[(i+2)%3]);
-        steps_q.b[i] <= step_t'(x_i[(i+2)%3]) - step_t'(x_i[(i+1)%3]);
+        steps_q.a[i] <= widened(y_i[(i+1)%3]) - widened(y_i[(i+2)%3]);
+        steps_q.b[i] <= widened(x_i[(i+2)%3]) - widened(x_i[(i+1)%3]);
       end
-      steps_q.x         <= start(x_first_i) - step_t'(x_i[0]);
-      steps_q.y         <= start(y_first_i) - step_t'(y_i[0]);
+      steps_q.x         <= start(x_first_i) - widened(x_i[0]);
+      steps_q.y         <= start(y_first_i) - widened(y_i[0]);
       steps_q.area2     <= area2_i;
       steps_q.fill_rule <= fill_rule_i;
       steps_q.by_square <= by_square_i & (Conservative != Centres);

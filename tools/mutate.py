@@ -58,6 +58,9 @@ GROUPS = {
         ["setup_plane", "quotient_digits", "setup_depth"],
     ),
     "setup_hi_z": Group("setup", ["hi_z_t8_s8", "hi_z_t4_s4"], ["--tiles", "12000"], ["setup_hi_z"]),
+    "line_setup": Group(
+        "setup", ["lines_t8_s8"], ["--tiles", "12000"], ["line_columns", "line_edges", "line_slope"]
+    ),
     # The modules that other units have too are mutated there: these have only a part of what credit_fifo can be.
     "block_walker": Group(
         "block_walker",

@@ -157,13 +157,14 @@ SETUP_MULTIPLIERS = {
 
 def _setup() -> Unit:
     def of(sub_pixel, interval, interpolator, measured=True, **parameters):
-        # setup_hi_z has two.
+        # setup_hi_z has two, line_edges one.
         hi_z = 2 if "HiZ" in parameters and interpolator == PLANE else 0
+        lines = 1 if "ThinLines" in parameters else 0
         return Configuration(
             "setup",
             {"SUB_PIXEL_BITS": sub_pixel},
             {"Interval": interval, "Interpolator": interpolator, **parameters},
-            multipliers=SETUP_MULTIPLIERS[interpolator] + hi_z,
+            multipliers=SETUP_MULTIPLIERS[interpolator] + hi_z + lines,
             measured=measured,
             long=interpolator == PLANE,
         )
@@ -178,7 +179,13 @@ def _setup() -> Unit:
             of(8, 1, BARYCENTRIC, Conservative=1, Uncertainty=1),
             of(8, 1, PLANE, False, HiZ="1'b1", Conservative=2, Uncertainty=1),
             of(4, 1, BARYCENTRIC, False, Conservative=1, Uncertainty=7),
+            of(8, 1, PLANE, False, ThinLines="1'b1"),
+            # What it has more: these, and line_edges for setup_edges.
+            Configuration("line_columns", {"SUB_PIXEL_BITS": 8}),
+            Configuration("line_edges", {"SUB_PIXEL_BITS": 8}, multipliers=5),
+            Configuration("setup_edges", {"SUB_PIXEL_BITS": 8}, multipliers=4),
             of(4, 1, BARYCENTRIC, False),
+            of(5, 1, BARYCENTRIC, False, ThinLines="1'b1"),
             of(4, 1, PLANE, False),
             of(4, 1, PLANE, False, HiZ="1'b1"),
             of(5, 2, BARYCENTRIC, False, FifoDepth=2),

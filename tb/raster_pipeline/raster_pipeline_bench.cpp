@@ -23,6 +23,7 @@
 #include "halfspace/timing/rtl/pipeline_library.hpp"
 #include "halfspace/timing/rtl/rest_skipper.hpp"
 #include "halfspace/timing/rtl/run_rtl.hpp"
+#include "line_frames.hpp"
 #include "raster_pipeline/fault.hpp"
 #include "timing/differences.hpp"
 #include "timing/random_machine.hpp"
@@ -45,6 +46,7 @@ struct BenchOptions {
   double throughput = 0;
   std::string rests = "skip";
   double skipped = 0;
+  bool lines = false;
 };
 
 struct Totals {
@@ -91,23 +93,48 @@ class Bench {
     }
     for (const std::string& file : options_.frames) {
       const Frame frame = load(file);
-      compare(frame, config_, {}, options_.seed, frame.name);
-      if (options_.throughput != 0) {
-        print_throughput();
-        continue;
+      if (options_.lines) {
+        as_lines(frame);
+      } else {
+        take(frame);
       }
-      Random random(options_.seed);
-      compare(frame, config_, stalls(random), options_.seed + 1, frame.name + " with stalls");
     }
     print();
   }
 
  private:
+  void take(const Frame& frame) {
+    compare(frame, config_, {}, options_.seed, frame.name);
+    if (options_.throughput != 0) {
+      print_throughput();
+      return;
+    }
+    Random random(options_.seed);
+    compare(frame, config_, stalls(random), options_.seed + 1, frame.name + " with stalls");
+  }
+
+  /// The sides of its triangles, by every rule that the machine takes.
+  void as_lines(Frame frame) {
+    const std::string name = frame.name;
+    for (std::size_t rule = 0; rule < kLineRuleName.size(); ++rule) {
+      if (is_thin(static_cast<LineRule>(rule)) && !takes_thin_lines(config_)) {
+        continue;
+      }
+      for (Command& command : frame.commands) {
+        command.polygon_mode = PolygonMode::kLine;
+        command.line_rule = static_cast<LineRule>(rule);
+      }
+      frame.name = fmt::format("{}, lines {}", name, kLineRuleName[rule]);
+      take(frame);
+    }
+  }
+
   /// Frames of all kinds, each on a pipeline of its own, with registers of its own before reset.
   void random_frames() {
     for (std::uint64_t n = 0; totals_.triangles < options_.triangles; ++n) {
       Random random(options_.seed + n);
-      const Frame frame = crowded(random_frame(random), random);
+      const Frame frame = options_.lines ? random_lines(random, takes_thin_lines(config_))
+                                         : crowded(random_frame(random), random);
       Config config = config_;
       config.memory.latency = pick(random, {1, 2, 20, 100, 400, config.memory.latency});
       config.z_cache.fast_clear = random.between(0, 3) != 0;
@@ -316,6 +343,8 @@ int main(int argc, char** argv) {
   app.add_option("--rtl-folder", options.folder, "where its verilated pipeline is")->required();
   app.add_option("--frame", options.frames,
                  "frames to run, each without and with stalls (default: random ones)");
+  app.add_flag("--lines", options.lines,
+               "random lines and points by every rule, or the sides of the frames' triangles");
   app.add_option("--triangles", options.triangles, "of the random frames")->capture_default_str();
   app.add_option("--seed", options.seed, "of frames, stalls and registers before reset")
       ->capture_default_str();

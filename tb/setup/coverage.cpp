@@ -9,6 +9,7 @@
 
 #include "halfspace/timing/contract.hpp"
 #include "halfspace/units/hi_z_plane.hpp"
+#include "halfspace/units/thin_line.hpp"
 
 namespace halfspace::tb {
 namespace {
@@ -47,6 +48,16 @@ std::string square_bin(std::uint8_t by_square, std::size_t format) {
   return fmt::format("by {} format {}", by_square != 0 ? "squares" : "centres", kFormatNames[format]);
 }
 std::string flat_bin(std::size_t first) { return fmt::format("without area, first {}", first); }
+constexpr std::array<const char*, 4> kLineVerdicts = {"drawn", "no length", "no pixel", "outside"};
+constexpr std::array<const char*, 3> kWidths = {"one", "even", "odd"};
+
+std::string line_bin(std::size_t rule, const char* what) {
+  return fmt::format("line {} {}", kLineRuleName[rule], what);
+}
+std::string direction_bin(std::size_t rule, bool x_major, bool forward, std::size_t slope) {
+  return fmt::format("line {} {}-major {} slope {}", kLineRuleName[rule], x_major ? 'x' : 'y',
+                     forward ? "forward" : "backward", kSigns[slope]);
+}
 
 std::size_t sign_of(std::int64_t value) { return value < 0 ? 0 : value == 0 ? 1 : 2; }
 
@@ -122,6 +133,46 @@ SetupCoverage::SetupCoverage(const SetupModel& model) : interval_(model.interval
     }
     counts_[edge_bin(0, true, rule)];  // below a flat top edge 0 leads down to the left
   }
+  if (model.thin_lines) {
+    add_line_bins();
+  }
+}
+
+void SetupCoverage::add_line_bins() {
+  for (std::size_t rule = 1; rule < kLineRuleName.size(); ++rule) {
+    for (const char* const verdict : kLineVerdicts) {
+      counts_[line_bin(rule, verdict)];
+    }
+    for (const char* const width : kWidths) {
+      counts_[line_bin(rule, width)];
+    }
+    for (const bool x_major : {false, true}) {
+      for (const bool forward : {false, true}) {
+        for (std::size_t slope = 0; slope < kSigns.size(); ++slope) {
+          counts_[direction_bin(rule, x_major, forward, slope)];
+        }
+      }
+    }
+  }
+}
+
+void SetupCoverage::line(const SetupJob& job, const SetupResult& result, const SetupModel& model) {
+  const std::size_t rule = job.triangle.line_rule;
+  const std::size_t verdict = result.verdict == SetupVerdict::kDrawn      ? 0
+                              : result.verdict == SetupVerdict::kZeroArea ? 1
+                              : result.verdict == SetupVerdict::kNoSample ? 2
+                                                                          : 3;
+  hit(line_bin(rule, kLineVerdicts[verdict]));
+  if (verdict != 0) {
+    return;
+  }
+  const int width = job.triangle.line_width;
+  hit(line_bin(rule, kWidths[width == 1 ? 0 : width % 2 == 0 ? 1 : 2]));
+  const ThinLine line =
+      thin_line({job.triangle.x[0], job.triangle.y[0]}, {job.triangle.x[1], job.triangle.y[1]},
+                static_cast<LineRule>(rule), width, model.dut.sub_pixel_bits);
+  const auto& minor = line.x_major ? job.triangle.y : job.triangle.x;
+  hit(direction_bin(rule, line.x_major, line.forward, sign_of(std::int64_t{minor[1]} - minor[0])));
 }
 
 void SetupCoverage::decision(Decision decision, bool refused) {
@@ -133,6 +184,10 @@ void SetupCoverage::output(bool valid, bool ready, bool full) {
 }
 
 void SetupCoverage::triangle(const SetupJob& job, const SetupResult& result, const SetupModel& model) {
+  if (job.triangle.line_rule != 0) {
+    line(job, result, model);
+    return;
+  }
   const std::size_t format = job.state.format;
   hit(verdict_bin(verdict_index(job, result), format));
   if (result.verdict != SetupVerdict::kDrawn) {

@@ -25,6 +25,8 @@ class SetupCoverage {
   [[nodiscard]] std::map<std::string, std::uint64_t> bins() const;
 
  private:
+  void add_line_bins();
+  void line(const SetupJob& job, const SetupResult& result, const SetupModel& model);
   void hit(const std::string& bin);
 
   int interval_;

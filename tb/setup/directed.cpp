@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "line_stimulus.hpp"
 #include "places.hpp"
 #include "stimulus.hpp"
 
@@ -239,6 +240,9 @@ std::vector<SetupJob> directed_jobs(const SetupModel& model) {
       jobs.push_back(jobs[i]);
       jobs.back().triangle.by_square = 1;
     }
+  }
+  if (model.thin_lines && model.interpolator() == DepthInterpolator::kPlane) {
+    add_lines(jobs, band);
   }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     number(jobs[i], i);

@@ -7,8 +7,9 @@
 
 namespace halfspace::tb {
 
-std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupModel& model) {
-  const Frame frame = load(file);
+namespace {
+
+void add_jobs(const Frame& frame, const SetupModel& model, std::vector<SetupJob>& jobs) {
   Config config;
   config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
   config.tile_walker.tile_size = model.dut.tile_size;
@@ -21,7 +22,6 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   const std::vector<HiZSurface> block_places = place_blocks(result.surfaces, config);
   std::deque<DrawContext> draws;
   FrameSource source(frame, config, nullptr, result.surfaces, result, draws);
-  std::vector<SetupJob> jobs;
   for (std::uint32_t command = 0; command < frame.commands.size(); ++command) {
     source.begin(command);
     while (const std::optional<SourceItem> item = source.next()) {
@@ -34,8 +34,31 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
       for (const ScreenTriangle& triangle : item->triangles) {
         const DrawStatePacket state =
             draw_state_packet(setup_state(draw.setup, triangle), draw.early_z, place, blocks, 0);
-        jobs.push_back({to_packet(triangle, draw.setup.conservative), state});
+        jobs.push_back({to_packet(triangle, draw.setup), state});
       }
+    }
+  }
+}
+
+/// With the sides of all triangles for these.
+Frame with_lines(const Frame& frame, LineRule rule) {
+  Frame lines = frame;
+  for (Command& command : lines.commands) {
+    command.polygon_mode = PolygonMode::kLine;
+    command.line_rule = rule;
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupModel& model) {
+  const Frame frame = load(file);
+  std::vector<SetupJob> jobs;
+  add_jobs(frame, model, jobs);
+  if (model.thin_lines && model.interpolator() == DepthInterpolator::kPlane) {
+    for (std::size_t rule = 1; rule < kLineRuleName.size(); ++rule) {
+      add_jobs(with_lines(frame, static_cast<LineRule>(rule)), model, jobs);
     }
   }
   return jobs;

@@ -81,10 +81,6 @@ SetupJob unpack_job(std::span<const std::uint32_t> words, const Widths& widths) 
 }
 
 SetupResult reference(const SetupJob& job, const SetupModel& model) {
-  ScreenTriangle triangle{.v = {}, .offset = job.triangle.offset};
-  for (std::size_t i = 0; i < 3; ++i) {
-    triangle.v[i] = {job.triangle.x[i], job.triangle.y[i], job.triangle.z[i]};
-  }
   SetupResult result;
   SetupState state = setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator());
   state.hi_z = model.hi_z;
@@ -92,6 +88,7 @@ SetupResult reference(const SetupJob& job, const SetupModel& model) {
     state.conservative = model.conservative();
     state.square_reach = square_reach(state.conservative, model.uncertainty, model.dut.sub_pixel_bits);
   }
+  const ScreenTriangle triangle = screen_triangle(job.triangle, state);
   result.verdict = setup(triangle, state, result.triangle);
   return result;
 }

@@ -21,6 +21,7 @@ struct SetupModel {
   bool hi_z = false;
   int conservative_number = 0;
   int uncertainty = 0;
+  bool thin_lines = false;
 
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);

@@ -19,7 +19,8 @@ struct SetupPins {
 
 template <class Model>
 SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int block_size, int queue,
-                     int fifo, int interval, int interpolator, int hi_z, int conservative, int uncertainty) {
+                     int fifo, int interval, int interpolator, int hi_z, int conservative, int uncertainty,
+                     int thin_lines) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
           queue,
           fifo,
@@ -28,7 +29,8 @@ SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits,
           interpolator,
           hi_z != 0,
           conservative,
-          uncertainty};
+          uncertainty,
+          thin_lines != 0};
 }
 
 }  // namespace halfspace::tb

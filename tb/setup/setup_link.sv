@@ -10,6 +10,7 @@ module setup_link
   parameter bit HiZ = 1'b0,
   parameter int unsigned Conservative = 0,
   parameter int unsigned Uncertainty = 0,
+  parameter bit ThinLines = 1'b0,
   // Bits of both links.
   localparam int unsigned InBits = $bits(screen_triangle_t) + $bits(draw_state_t),
   localparam int unsigned OutBits =
@@ -45,7 +46,8 @@ module setup_link
     .Interpolator (Interpolator),
     .HiZ          (HiZ),
     .Conservative (Conservative),
-    .Uncertainty  (Uncertainty)
+    .Uncertainty  (Uncertainty),
+    .ThinLines    (ThinLines)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/random.hpp"
+#include "line_stimulus.hpp"
 #include "places.hpp"
 
 namespace halfspace::tb {
@@ -20,6 +21,8 @@ class Generator {
         block_(model.block_size),
         conservative_(model.conservative() != Conservative::kOff),
         uncertainty_(model.uncertainty),
+        thin_lines_(model.thin_lines),
+        without_depth_(model.interpolator() == DepthInterpolator::kBarycentric),
         random_(seed) {}
 
   SetupJob next() {
@@ -40,6 +43,10 @@ class Generator {
     last_ = points;
     set_vertices(job, points);
     depths(job);
+    if (thin_lines_ && (state_.format == 0 || !without_depth_) && one_in(2)) {
+      job.triangle.by_square = 0;
+      make_random_line(job, band_, centre_, block_, random_);
+    }
     return job;
   }
 
@@ -214,6 +221,8 @@ class Generator {
   int block_;
   bool conservative_;
   std::int64_t uncertainty_;
+  bool thin_lines_;
+  bool without_depth_;  ///< lines, that is
   Random random_;
   std::uint64_t count_ = 0;
   DrawStatePacket state_ = open_state(0);

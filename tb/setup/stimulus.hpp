@@ -20,7 +20,8 @@ namespace halfspace::tb {
 /// Drawn and dropped triangles as `drawn` says, small ones.
 [[nodiscard]] std::vector<SetupJob> timing_jobs(const SetupModel& model, const std::vector<bool>& drawn);
 
-/// What the front end makes of a frame, with the states of its draws; clears that are drawn included.
+/// What the front end makes of a frame, with the states of its draws; clears that are drawn included. Then
+/// the same with the sides of its triangles as thin lines, by every rule, where the RTL has them.
 [[nodiscard]] std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupModel& model);
 
 /// Random triangles of every kind: slivers, tiny, large, at the guard band, on pixel centres, without area,

@@ -49,5 +49,16 @@ TEST_CASE("thin lines are refused by what cannot draw them, by name") {
   const std::string lines = "run " + kCube + " --polygon-mode line --line-rule bresenham ";
   check_error(place.run(lines + "--set depth.interpolator=barycentric"),
               {"bresenham", "barycentric", "plane"});
-  check_error(place.run(lines + "--reference exact"), {"lines or points", "legal"});
+  check_error(place.run(lines + "--reference scanline"), {"lines or points", "legal", "'exact' thin lines"});
+  check_error(place.run("run " + kCube + " --polygon-mode line --reference exact"),
+              {"lines or points", "legal"});
+  check_error(place.run("run " + kCube + " --polygon-mode point --reference exact"),
+              {"lines or points", "legal"});
+  check_error(
+      place.run("run " + kCube + " --polygon-mode line --line-rule dda --line-width 2 --reference exact"),
+      {"dda", "2 pixels wide", "odd widths"});
+  check_error(place.run("stress --lines --set depth.interpolator=barycentric"), {"interpolator", "plane"});
+  check_error(place.run("stress --lines --set raster.samples=4"), {"raster.samples", "legal"});
+  check_error(place.run("stress --lines --engine reference:exact"), {"--engine", "line_", "files:DIR"});
+  check_error(place.run("stress --family line_tiny --sharpness"), {"--sharpness", "line_tiny", "triangles"});
 }

@@ -111,6 +111,10 @@ TEST_CASE(
     }
     INFO(kLineRuleName[static_cast<std::size_t>(rule)]);
     CHECK(differences == 0);
+    if (wanted == kAll) {
+      WARN(kLineRuleName[static_cast<std::size_t>(rule)] << ": " << wanted << " pairs of points, "
+                                                         << differences << " differences");
+    }
   }
 }
 

@@ -187,6 +187,13 @@ TEST_CASE_METHOD(Refusals, "c_api: triangles outside the contract of setup are r
     refused_triangle([&](auto&, auto& d) { d.format = static_cast<std::uint8_t>(format_number); },
                      fmt::format("state.format is {}; legal: 0 (none), 1", format_number));
   }
+  refused_triangle([](auto& t, auto&) { t.line_rule = 5, t.line_width = 1; },
+                   "triangle.line_rule is 5; legal: 0 (a triangle) to 4");
+  for (const int width : {0, 65}) {
+    refused_triangle(
+        [&](auto& t, auto&) { t.line_rule = 2, t.line_width = static_cast<std::uint8_t>(width); },
+        fmt::format("triangle.line_width is {}; legal: 1 to 64", width));
+  }
   refused_triangle([](auto&, auto& d) { d.format = 0; }, "state.test is 1; legal: 0");
   refused_triangle([](auto&, auto& d) { d.late = 1; }, "state.late is 1; legal: 0");
   refused_triangle(

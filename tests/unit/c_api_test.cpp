@@ -221,6 +221,29 @@ TEST_CASE("c_api: check compares packet by packet and names link, packet and fie
   CHECK(halfspace_get(model.get(), HALFSPACE_COVERAGE, wrong.data(), bits) == HALFSPACE_NONE);
 }
 
+TEST_CASE("c_api: a thin line leaves setup as line_setup makes it") {
+  const Machine& machine = kMachines[0];
+  const DepthFormat format = DepthFormat::kNone;
+  const Model model = make_model(machine, {HALFSPACE_SETUP_TRIANGLE});
+  const DrawStatePacket draw = draw_state(machine, format);
+  SetupState state = setup_state(draw, machine.widths.SubPixelBits, machine.interpolator);
+  for (const LineRule rule :
+       {LineRule::kBresenham, LineRule::kDiamondExit, LineRule::kMidpoint, LineRule::kDda}) {
+    state.line_rule = rule;
+    state.line_width = 3;
+    const ScreenTriangle line{.v = {ScreenVertex{.x = 100, .y = 900}, ScreenVertex{.x = 3000, .y = 2100},
+                                    ScreenVertex{.x = 100, .y = 900}},
+                              .shape = ScreenShape::kThinLine};
+    SetupTriangle expected;
+    REQUIRE(setup(line, state, expected) == SetupVerdict::kDrawn);
+    REQUIRE(put(model, HALFSPACE_TRIANGLE, join(machine.widths, to_packet(line, state), draw)) ==
+            HALFSPACE_OK);
+    CHECK(take(model, HALFSPACE_SETUP_TRIANGLE) ==
+          std::vector<Words>{join(machine.widths, to_packet(expected, machine.walker()),
+                                  to_packet(expected, format, machine.interpolator), draw)});
+  }
+}
+
 TEST_CASE("c_api: reset forgets packets, bursts and slots, and keeps surfaces") {
   const Machine& machine = kMachines[0];
   const DepthFormat format = DepthFormat::kUnorm16;
@@ -228,8 +251,7 @@ TEST_CASE("c_api: reset forgets packets, bursts and slots, and keeps surfaces") 
   define_surface(model, format);
   const ScreenTriangle triangle = {
       {ScreenVertex{0, 0, 1 << 20}, ScreenVertex{0, 9000, 1 << 20}, ScreenVertex{9000, 0, 1 << 20}}, 0};
-  const Words words =
-      join(machine.widths, to_packet(triangle, Conservative::kOff), draw_state(machine, format));
+  const Words words = join(machine.widths, to_packet(triangle, {}), draw_state(machine, format));
   REQUIRE(put(model, HALFSPACE_TRIANGLE, words) == HALFSPACE_OK);
   const std::vector<Words> first = take(model, HALFSPACE_TILE_JOB);
   REQUIRE_FALSE(first.empty());

@@ -99,6 +99,27 @@ void check_vertex_depth(std::int64_t z, std::uint8_t format, const std::string& 
   }
 }
 
+void check_line(const ScreenTrianglePacket& packet, const DrawStatePacket& draw, bool barycentric) {
+  if (packet.line_rule == 0) {
+    return;
+  }
+  const int last = static_cast<int>(kLineRuleName.size()) - 1;
+  if (packet.line_rule > last) {
+    throw InputError(
+        fmt::format("triangle.line_rule is {}; legal: 0 (a triangle) to {}", packet.line_rule, last));
+  }
+  if (packet.line_width < 1 || packet.line_width > kMaxLineWidth) {
+    throw InputError(
+        fmt::format("triangle.line_width is {}; legal: 1 to {}", packet.line_width, kMaxLineWidth));
+  }
+  if (barycentric && draw.format != 0) {
+    throw InputError(fmt::format(
+        "triangle.line_rule is {}, with a depth format and depth.interpolator barycentric; legal: 0 "
+        "(a triangle)",
+        packet.line_rule));
+  }
+}
+
 void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const Widths& widths) {
   check_order("triangle.x_first", packet.x_first, "triangle.x_last", packet.x_last);
   check_order("triangle.y_first", packet.y_first, "triangle.y_last", packet.y_last);

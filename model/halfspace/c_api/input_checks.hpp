@@ -17,6 +17,9 @@ void check_draw(const DrawStatePacket& draw);
 void check_vertex_depths(const std::array<std::int64_t, 3>& z, std::uint8_t format, const char* field);
 void check_vertex_depth(std::int64_t z, std::uint8_t format, const std::string& field);
 
+/// For setup: a rule of lines that there is, a width with it, and an interpolator that can have them.
+void check_line(const ScreenTrianglePacket& packet, const DrawStatePacket& draw, bool barycentric);
+
 /// For block_walker: bounds that hold a pixel, and E within its width at all samples of the blocks that the
 /// walk looks at.
 void check_walk(const SetupTrianglePacket& packet, const SetupTriangle& triangle, const Widths& widths);

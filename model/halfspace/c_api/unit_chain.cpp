@@ -124,11 +124,9 @@ class Chain final : public UnitChain {
     if (draw.empty == 0) {
       check_target(draw, draw.x_last, draw.y_last);
     }
-    ScreenTriangle in{.v = {}, .offset = packet.offset};
-    for (std::size_t i = 0; i < 3; ++i) {
-      in.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
-    }
+    check_line(packet, draw, barycentric());
     DrawContext context = draw_context(draw, context_);
+    const ScreenTriangle in = screen_triangle(packet, context.setup);
     SetupTriangle out;
     if (!passage::setup(in, context, out)) {
       return;

@@ -29,6 +29,7 @@
 #include "halfspace/stress/campaign_report.hpp"
 #include "halfspace/stress/engine_subject.hpp"
 #include "halfspace/stress/exhaustive.hpp"
+#include "halfspace/stress/line_families.hpp"
 #include "halfspace/stress/reference_subject.hpp"
 #include "halfspace/stress/wrong_rasterizer.hpp"
 
@@ -50,6 +51,7 @@ struct StressCommand {
   std::string engine;
   std::string write;
   std::string out;
+  bool lines = false;
   bool reports = false;
   bool sharpness = false;
   bool exhaustive = false;
@@ -98,7 +100,8 @@ stress::CampaignPlan plan_of(const StressCommand& command, const Config& config)
       }
     }
   };
-  add(stress::families(), !command.reports);
+  add(stress::families(), !command.reports && !command.lines);
+  add(stress::line_families(), command.lines);
   add(stress::reports(), command.reports);
   if (command.samples) {
     plan.samples = *command.samples;
@@ -182,6 +185,32 @@ void check_samples(const StressCommand& command, const Config& config) {
   }
 }
 
+/// Thin lines have pixels by their centres, and depth by the plane.
+void check_lines(const StressCommand& command, const Config& config, const stress::CampaignPlan& plan) {
+  const std::span<const stress::Family> lines = stress::line_families();
+  const auto is_line = [&](const stress::Family* family) {
+    return std::ranges::find(lines, family->name, &stress::Family::name) != lines.end();
+  };
+  const auto found = std::ranges::find_if(plan.families, is_line);
+  if (found == plan.families.end()) {
+    return;
+  }
+  const std::string what = fmt::format("family {}", (*found)->name);
+  if (command.sharpness) {
+    throw OptionError(fmt::format("--sharpness and {}: legal with it are families of triangles", what));
+  }
+  require_centre(config, what);
+  if (config.raster.conservative != Conservative::kOff) {
+    throw OptionError(fmt::format("raster.conservative is on; legal with {}: off", what));
+  }
+  if (config.depth.interpolator != DepthInterpolator::kPlane) {
+    throw OptionError(fmt::format("depth.interpolator is barycentric; legal with {}: plane", what));
+  }
+  if (!command.engine.empty() && !command.engine.starts_with("files:")) {
+    throw OptionError(fmt::format("--engine is '{}'; legal with {}: files:DIR", command.engine, what));
+  }
+}
+
 ExitStatus stress_command(const StressCommand& command) {
   if (command.every != 1 && !command.exhaustive && !command.units) {
     throw OptionError(
@@ -205,12 +234,12 @@ ExitStatus stress_command(const StressCommand& command) {
   if (command.exhaustive || command.units) {
     return exhaustive_command(command, fidelity, config, options);
   }
+  stress::CampaignPlan plan = plan_of(command, config);
+  check_lines(command, config, plan);
   if (command.sharpness) {
-    stress::CampaignPlan plan = plan_of(command, config);
     plan.folder.clear();
     return status_of(command.reports ? print_report_sharpness(plan) : print_sharpness(plan));
   }
-  const stress::CampaignPlan plan = plan_of(command, config);
   if (!command.write.empty()) {
     stress::write_cases(plan.families, plan.precision, plan.seed, command.cases.value_or(1), command.write);
     fmt::print("cases in {}\n", command.write);
@@ -270,7 +299,8 @@ void add_stress_command(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(0.001, 1e6));
   options->rtl.add_to(*command);
   std::vector<std::string> names;
-  for (const std::span<const stress::Family> list : {stress::families(), stress::reports()}) {
+  for (const std::span<const stress::Family> list :
+       {stress::families(), stress::line_families(), stress::reports()}) {
     for (const stress::Family& family : list) {
       names.emplace_back(family.name);
     }
@@ -285,6 +315,10 @@ void add_stress_command(CLI::App& app, ExitStatus& status) {
           ->add_flag("--reports", options->reports,
                      "scenes from public reports of seams and holes instead of the families")
           ->excludes(family);
+  CLI::Option* lines =
+      command->add_flag("--lines", options->lines, "thin lines by every rule instead of the families")
+          ->excludes(family)
+          ->excludes(reports);
   command->add_option("--depth", options->depth, "depth format")
       ->check(one_of({"unorm16", "unorm24", "float32"}))
       ->capture_default_str();
@@ -336,7 +370,10 @@ void add_stress_command(CLI::App& app, ExitStatus& status) {
     }
   }
   units->excludes(write)->excludes(sharpness);
-  reports->excludes(exhaustive)->excludes(units);
+  for (CLI::Option* list : {reports, lines}) {
+    list->excludes(exhaustive)->excludes(units);
+  }
+  lines->excludes(sharpness);
   write->excludes(sharpness);
   command->callback([options, &status] { status = stress_command(*options); });
 }

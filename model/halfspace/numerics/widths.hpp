@@ -27,6 +27,8 @@ namespace halfspace {
   W(SlotBits,        8,                                                "where the units keep what all tiles of a triangle share") \
   W(FlagBits,        1,                                                "yes or no")                                  \
   W(FillRuleBits,    2,                                                "bit 0: bottom edges own the samples on them, not top ones; bit 1: right edges, not left ones") \
+  W(LineRuleBits,    3,                                                "0: a triangle; else a thin line, by its rule: 1 bresenham, 2 diamond exit, 3 midpoint, 4 DDA") \
+  W(LineWidthBits,   7,                                                "pixels that a thin line has in a column, at most 64") \
   W(VertexDepthBits, 48,                                               "depth of a vertex, or polygon offset: a unorm code with a fraction below it, signed, or a float32 in the low bits") \
   W(WordBits,        64,                                               "depth with the binary point behind the sign, on a scale of the triangle") \
   W(HalfGradientBits, 43,                                              "half of a gradient of depth: a word and 22 bits below it, together 86") \

@@ -84,8 +84,9 @@ bool direct3d_holds(const OnSegment& p, Wide half, bool x_major) {
 }  // namespace
 
 bool leaves_vulkan_diamond(const GridLine& line, const PixelPlace& pixel, int subpixel_bits) {
-  // Lines differ at a centre by 1 / 2^17 at least, if at all, and slopes by 1 / 2^34: e is 2^-20, and e^2
-  // 2^-40 of a sub-pixel.
+  // Lines are 2^19 sub-pixels long at most, so from a centre they are 1 / 2^19 away at least, if at all, and
+  // no slope is less but 0. e is 2^-20 of a sub-pixel: it moves a line by less, and by e^2 less than by e
+  // slope.
   constexpr int kBits = 40;
   const Wide one = Wide{1} << kBits;
   const Wide move_x = Wide{1} << (kBits - 20);

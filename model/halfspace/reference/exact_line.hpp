@@ -7,7 +7,7 @@
 
 namespace halfspace::reference {
 
-/// Coordinates of a line's ends in 1/2^subpixel_bits pixel, y down; at most 2^16 in magnitude.
+/// Coordinates of a line's ends in 1/2^subpixel_bits pixel, y down; at most 2^18 in magnitude.
 struct GridLine {
   std::int64_t ax = 0;
   std::int64_t ay = 0;

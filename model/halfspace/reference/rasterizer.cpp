@@ -14,6 +14,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/reference/depth_code.hpp"
 #include "halfspace/reference/pixel_rect.hpp"
+#include "halfspace/reference/thin_lines.hpp"
 #include "halfspace/reference/triangle_method.hpp"
 #include "halfspace/reference/vertex_color.hpp"
 
@@ -118,12 +119,13 @@ bool is_finite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-/// The corners of a triangle of a draw; nothing where one is not finite.
-std::optional<ClipTriangle> clip_triangle(const Frame& frame, const Command& command,
-                                          std::uint32_t triangle) {
-  ClipTriangle corners;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const std::uint32_t index = frame.indices[command.first_index + triangle * 3 + k];
+/// The corners of a triangle or a line of a draw; nothing where one is not finite.
+template <std::size_t Count>
+std::optional<std::array<Corner, Count>> clip_corners(const Frame& frame, const Command& command,
+                                                      std::uint32_t primitive) {
+  std::array<Corner, Count> corners;
+  for (std::uint32_t k = 0; k < Count; ++k) {
+    const std::uint32_t index = frame.indices[command.first_index + primitive * Count + k];
     const glm::vec4& v = frame.vertices[std::uint64_t{command.first_vertex} + index];
     if (!is_finite(v)) return std::nullopt;
     corners[k] = {{v.x, v.y, v.z, v.w}, vertex_color(index)};
@@ -153,6 +155,34 @@ TieRule rule_of(const Command& draw, const Options& options) {
   return options.rule.value_or(own);
 }
 
+/// The primitives of a draw, one after the other. Nothing where a corner is not finite.
+class Primitives {
+ public:
+  Primitives(const Frame& frame, const Command& command, const DrawState& state, const Method& method)
+      : frame_(frame), command_(command), state_(state), method_(method), lines_(state) {}
+
+  std::optional<DrawnTriangle> draw(std::uint32_t number) {
+    if (command_.primitive != Primitive::kTriangles) {
+      const auto ends = clip_corners<2>(frame_, command_, number);
+      const std::uint32_t* const index = frame_.indices.data() + command_.first_index + 2 * number;
+      const bool goes_on =
+          command_.primitive == Primitive::kLineStrip && number != 0 && index[0] == index[-1];
+      return ends ? std::optional(lines_.line(*ends, goes_on)) : std::nullopt;
+    }
+    const auto triangle = clip_corners<3>(frame_, command_, number);
+    if (!triangle) return std::nullopt;
+    return command_.polygon_mode == PolygonMode::kLine ? lines_.outline(*triangle)
+                                                       : method_.draw(*triangle, state_);
+  }
+
+ private:
+  const Frame& frame_;
+  const Command& command_;
+  const DrawState& state_;
+  const Method& method_;
+  ThinLines lines_;
+};
+
 /// Draw `number` of the frame.
 void draw(const Frame& frame, const Command& command, std::uint32_t number, const Options& options,
           const Method& method, Surface& surface, Observer& observer) {
@@ -167,16 +197,16 @@ void draw(const Frame& frame, const Command& command, std::uint32_t number, cons
   const DepthTarget to = {state, surface, has_depth && command.has(Flag::kDepthTest),
                           has_depth && command.has(Flag::kDepthWrite) && may_write, method.has_colors};
   Counters counters;
-  for (std::uint32_t i = 0; i < command.index_count / 3; ++i) {
+  Primitives primitives(frame, command, state, method);
+  for (std::uint32_t i = 0; i < command.primitive_count(); ++i) {
     ++counters.triangles;
-    const std::optional<ClipTriangle> triangle = clip_triangle(frame, command, i);
-    if (!triangle) {
+    std::optional<DrawnTriangle> drawn = primitives.draw(i);
+    if (!drawn) {
       ++counters.non_finite;
       continue;
     }
-    DrawnTriangle drawn = method.draw(*triangle, state);
-    count_fate(drawn.fate, counters);
-    for (std::vector<Fragment>& piece : drawn.pieces) {
+    count_fate(drawn->fate, counters);
+    for (std::vector<Fragment>& piece : drawn->pieces) {
       observer.piece(number, i, draw_piece_quads(to, std::move(piece), counters));
     }
   }
@@ -200,8 +230,15 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InputError(message);
 }
 
+/// Thin lines, and thin sides of triangles, are drawn by one method, which has no colours.
+bool can_draw(const Command& command, const Method& method) {
+  const bool is_filled =
+      command.primitive == Primitive::kTriangles && command.polygon_mode == PolygonMode::kFill;
+  return is_filled || (command.draws_thin_lines() && method.name == "exact");
+}
+
 /// What the rest of this file relies on.
-void check(const Frame& frame, const Options& options) {
+void check(const Frame& frame, const Options& options, const Method& method) {
   require(options.subpixel_bits >= 4 && options.subpixel_bits <= 8,
           "subpixel_bits: " + std::to_string(options.subpixel_bits) + " is not in 4 to 8");
   std::map<std::uint32_t, Target> first;
@@ -219,8 +256,10 @@ void check(const Frame& frame, const Options& options) {
     require(c.target < frame.targets.size(),
             where + ": target " + std::to_string(c.target) + " does not exist");
     if (c.kind != CommandKind::kDraw) continue;
-    require(c.primitive == Primitive::kTriangles && c.polygon_mode == PolygonMode::kFill,
-            where + ": it draws lines or points; legal for a reference: triangles that are filled");
+    require(can_draw(c, method),
+            where +
+                ": it draws lines or points; legal for a reference: triangles that are filled, and by "
+                "'exact' thin lines");
     require(is_finite(c.viewport), where + ": viewport is not finite");
     require(std::uint64_t{c.first_index} + c.index_count <= frame.indices.size(),
             where + ": indices end early");
@@ -288,7 +327,7 @@ std::vector<Surface> rasterize(const Frame& frame, const Options& options, Obser
 
 std::vector<Surface> rasterize(const Frame& frame, const Options& options, const Method& method,
                                Observer* observer) {
-  check(frame, options);
+  check(frame, options, method);
   const bool has_colors = method.has_colors;
   Observer nobody;
   const std::map<std::uint32_t, std::uint32_t> index_of = index_surfaces(frame);

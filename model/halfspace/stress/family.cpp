@@ -9,6 +9,7 @@
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/numerics/split_mix.hpp"
 #include "halfspace/scene/ptf.hpp"
+#include "halfspace/stress/line_families.hpp"
 
 namespace halfspace::stress {
 namespace {
@@ -52,7 +53,7 @@ bool is_unclipped(const Family& family) {
 
 const Family& family_of(std::string_view name) {
   std::string names;
-  for (const std::span<const Family> list : {families(), reports()}) {
+  for (const std::span<const Family> list : {families(), line_families(), reports()}) {
     for (const Family& family : list) {
       if (family.name == name) {
         return family;

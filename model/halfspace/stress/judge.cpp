@@ -220,7 +220,10 @@ std::vector<double> depth_shares(const Case& made, const Precision& precision, c
 
 Tally judge(const Case& made, const Precision& precision, const DepthLaw& law, const Picture& picture,
             const Picture* twin) {
-  Tally tally{.cases = 1, .triangles = made.frame.indices.size() / 3};
+  Tally tally{.cases = 1};
+  for (const Command& command : made.frame.commands) {
+    tally.triangles += command.kind == CommandKind::kDraw ? command.primitive_count() : 0;
+  }
   if (!made.triangles.empty()) {
     const Definition definition = define(made, precision);
     tally.samples += definition.samples;

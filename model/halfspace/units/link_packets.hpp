@@ -18,12 +18,15 @@ namespace halfspace {
 /// Quads of the widest beat.
 inline constexpr std::size_t kMostBeatQuads = 16;
 
+/// Of a thin line vertices 0 and 1 are its ends, and vertex 2 means nothing.
 struct ScreenTrianglePacket {
   std::array<std::int32_t, 3> x{};
   std::array<std::int32_t, 3> y{};
   std::array<std::int64_t, 3> z{};
   std::int64_t offset = 0;
-  std::uint8_t by_square = 0;  ///< drawn by squares, not by centres, where the machine is conservative
+  std::uint8_t by_square = 0;   ///< drawn by squares, not by centres, where the machine is conservative
+  std::uint8_t line_rule = 0;   ///< 0: a triangle; else LineRule of a thin line
+  std::uint8_t line_width = 0;  ///< of a thin line, in pixels of a column
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
@@ -32,17 +35,36 @@ struct ScreenTrianglePacket {
     visit("z", &ScreenTrianglePacket::z, &Widths::VertexDepthBits, Sign::kSigned);
     visit("offset", &ScreenTrianglePacket::offset, &Widths::VertexDepthBits, Sign::kSigned);
     visit("by_square", &ScreenTrianglePacket::by_square, &Widths::FlagBits, Sign::kUnsigned);
+    visit("line_rule", &ScreenTrianglePacket::line_rule, &Widths::LineRuleBits, Sign::kUnsigned);
+    visit("line_width", &ScreenTrianglePacket::line_width, &Widths::LineWidthBits, Sign::kUnsigned);
   }
 };
 
-/// `conservative` is that of its draw.
-inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle, Conservative conservative) {
+/// `state` is that of its draw. Thin lines have no squares.
+inline ScreenTrianglePacket to_packet(const ScreenTriangle& triangle, const SetupState& state) {
   const std::array<ScreenVertex, 3>& v = triangle.v;
+  const bool is_line = triangle.shape == ScreenShape::kThinLine;
   return {.x = {v[0].x, v[1].x, v[2].x},
           .y = {v[0].y, v[1].y, v[2].y},
           .z = {v[0].z, v[1].z, v[2].z},
           .offset = triangle.offset,
-          .by_square = static_cast<std::uint8_t>(conservative == Conservative::kOff ? 0 : 1)};
+          .by_square = static_cast<std::uint8_t>(!is_line && state.conservative != Conservative::kOff),
+          .line_rule = static_cast<std::uint8_t>(is_line ? state.line_rule : LineRule{}),
+          .line_width = static_cast<std::uint8_t>(is_line ? state.line_width : 0)};
+}
+
+/// The way back. What setup has to know of a thin line goes to `state`.
+inline ScreenTriangle screen_triangle(const ScreenTrianglePacket& packet, SetupState& state) {
+  ScreenTriangle triangle{.v = {}, .offset = packet.offset};
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.v[i] = {.x = packet.x[i], .y = packet.y[i], .z = packet.z[i]};
+  }
+  if (packet.line_rule != 0) {
+    triangle.shape = ScreenShape::kThinLine;
+    state.line_rule = static_cast<LineRule>(packet.line_rule);
+    state.line_width = packet.line_width;
+  }
+  return triangle;
 }
 
 /// All that the units know of a draw.

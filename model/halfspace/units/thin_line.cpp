@@ -81,22 +81,18 @@ Band dda_band(const Line& line) {
 
 Band band_of(const Line& line) { return line.rule == LineRule::kDda ? dda_band(line) : exact_band(line); }
 
-/// The least pixel of a column.
-std::int64_t least_pixel(const Line& line, const Band& band, std::int64_t column) {
-  const std::int64_t line_value = band.value + ((band.u_step * column) << line.bits);
-  const std::int64_t step = -band.v_step << line.bits;
-  // the last pixel v has line_value - step v + half >= 0, or > 0; it is width - 1 above the least
-  const std::int64_t sum = line_value + band.half;
-  const std::int64_t most = line.ties_go_up() ? floor_quotient(sum, step) : ceil_quotient(sum, step) - 1;
-  return most - (line.width - 1);
+/// The least of the pixels that a column has where its middle is a point of the line at `v`; of a line of
+/// width 1 the pixel that holds the point.
+std::int64_t least_pixel(const Line& line, std::int64_t v) {
+  const std::int64_t moved = v - (line.width - 1) * line.half();
+  return (line.ties_go_up() ? moved : moved - 1) >> line.bits;
 }
 
-/// Whether the diamond of a pixel holds a point of the line that Vulkan and Direct3D rasterize for lines of
-/// this width: it is moved so that the least pixel of a column is that of a line of width 1.
-bool diamond_holds(const Line& line, std::int64_t u, std::int64_t v, std::int64_t column,
-                   std::int64_t pixel) {
+/// Whether the diamond of a pixel of the column holds a point of the line that Vulkan and Direct3D rasterize
+/// for lines of this width: it is moved so that the least pixel of a column is that of a line of width 1.
+bool diamond_holds(const Line& line, std::int64_t u, std::int64_t v, std::int64_t column) {
   const std::int64_t off_u = u - line.centre(column);
-  const std::int64_t off_v = v - (line.width - 1) * line.half() - line.centre(pixel);
+  const std::int64_t off_v = v - (line.width - 1) * line.half() - line.centre(least_pixel(line, v));
   const std::int64_t distance = std::abs(off_u) + std::abs(off_v);
   if (distance != line.half()) {
     return distance < line.half();
@@ -111,13 +107,12 @@ bool diamond_holds(const Line& line, std::int64_t u, std::int64_t v, std::int64_
 
 /// The columns of lines that leave diamonds. Along a line |u| + |v| from the centre of a pixel is least in
 /// the column's middle, so a line meets the diamond of a pixel of its band if it passes the middle, or starts
-/// behind it inside the diamond. It leaves it unless it ends inside.
-void find_columns(const Line& line, const Band& band, ThinLine& out) {
+/// behind it inside the diamond. It leaves it unless it ends inside. A point in a diamond behind the middle
+/// is in that of the pixel that the column has: with a slope of at most 1 the line does not leave the pixel
+/// in between.
+void find_columns(const Line& line, ThinLine& out) {
   const std::int64_t size = std::int64_t{1} << line.bits;
   const bool moved = line.rule == LineRule::kBresenham;  // by less than anything along u
-  const auto holds = [&](std::int64_t u, std::int64_t v, std::int64_t column) {
-    return diamond_holds(line, u, v, column, least_pixel(line, band, column));
-  };
   const std::int64_t step = line.direction();
   std::int64_t start = 0;
   std::int64_t end = 0;
@@ -131,8 +126,9 @@ void find_columns(const Line& line, const Band& band, ThinLine& out) {
     end = ceil_quotient(line.ub - line.half(), size);
   }
   const std::int64_t before = start - step;
-  const bool has_before = holds(line.ua, line.va, before) && !holds(line.ub, line.vb, before);
-  if ((end - start) * step >= 0 && holds(line.ub, line.vb, end)) {
+  const bool has_before =
+      diamond_holds(line, line.ua, line.va, before) && !diamond_holds(line, line.ub, line.vb, before);
+  if ((end - start) * step >= 0 && diamond_holds(line, line.ub, line.vb, end)) {
     end -= step;
   }
   start = has_before ? before : start;
@@ -194,15 +190,16 @@ ThinLine thin_line(const LinePoint& a, const LinePoint& b, LineRule rule, int wi
   if (joins_pixels(rule)) {
     find_columns_of_pixels(line, out);
   } else {
-    find_columns(line, band, out);
+    find_columns(line, out);
   }
   if (out.empty()) {
     return out;
   }
-  const auto [low, high] =
-      std::minmax({least_pixel(line, band, out.first), least_pixel(line, band, out.last)});
-  out.minor_first = static_cast<std::int32_t>(low);
-  out.minor_last = static_cast<std::int32_t>(high + width - 1);
+  // A column's pixels are between those of the ends, whose rounding is monotonous; DDA's slope too is that of
+  // a line which does not go beyond its end.
+  const auto [low, high] = std::minmax({line.va, line.vb});
+  out.minor_first = static_cast<std::int32_t>(least_pixel(line, low));
+  out.minor_last = static_cast<std::int32_t>(least_pixel(line, high) + width - 1);
   return out;
 }
 

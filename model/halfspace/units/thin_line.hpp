@@ -29,7 +29,7 @@ struct ThinLine {
   bool forward = true;  ///< it is drawn from `first` to `last`, else from `last` to `first`
   std::int32_t first = 0;
   std::int32_t last = -1;
-  std::int32_t minor_first = 0;  ///< of the pixels in the columns
+  std::int32_t minor_first = 0;  ///< pixels of columns at the ends of the line: those of all are between
   std::int32_t minor_last = -1;
   std::array<Edge, 2> edge{};  ///< c at the centre of pixel (0, 0), ties folded in
 

@@ -13,6 +13,7 @@ module setup_cull_adders
 
   logic     valid_o;
   verdict_t verdict_o;
+  screen_triangle_t triangle_o;
   setup_cull u_dut (.*);
 
   typedef logic signed [AreaBits+1:0] difference_t;

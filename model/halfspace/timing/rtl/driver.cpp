@@ -162,7 +162,7 @@ void Driver::load_triangle() {
   state_ = draw_state_packet(
       setup_state(draw.setup, triangle), draw.early_z, has_depth ? run_.places[draw.surface] : ZSurface{},
       has_depth ? run_.blocks[draw.surface] : HiZSurface{}, has_depth ? run_.clear_code[draw.surface] : 0);
-  pack(to_packet(triangle, draw.setup.conservative), run_.widths, run_.in.triangle);
+  pack(to_packet(triangle, draw.setup), run_.widths, run_.in.triangle);
   pack(state_, run_.widths, run_.in.state);
   next_arrival_ = run_.cycle + run_.options.stalls.cycles(StallPoint::kSource, triangles_++);
   in_triangle_ = true;

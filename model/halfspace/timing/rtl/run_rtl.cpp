@@ -56,18 +56,6 @@ void check_depths(const Frame& frame) {
   }
 }
 
-/// setup of the RTL has no line_setup. Rectangular lines and points are triangles when they get there.
-void check_thin_lines(const Frame& frame) {
-  for (std::size_t i = 0; i < frame.commands.size(); ++i) {
-    const Command& command = frame.commands[i];
-    if (command.kind == CommandKind::kDraw && command.draws_thin_lines()) {
-      throw InputError(fmt::format("{}: command {}: line rule is {}; legal for the RTL: {}", frame.name, i,
-                                   kLineRuleName[static_cast<std::size_t>(command.line_rule)],
-                                   kLineRuleName[static_cast<std::size_t>(LineRule::kRectangular)]));
-    }
-  }
-}
-
 /// Driver, scoreboard, sink and memory of one run.
 template <int TileSize>
 class RtlRun final : public PortListener {
@@ -121,7 +109,6 @@ RtlResult run_rtl(const Frame& frame, const Config& config, const EngineOptions&
                   VerilatedPipeline& pipeline) {
   check_options(options);
   check_depths(frame);
-  check_thin_lines(frame);
   RtlResult result;
   RunState run(frame, config, options, pipeline, result.report);
   check_size(frame, run);
