@@ -18,6 +18,7 @@ namespace halfspace {
 struct QuadEvent {
   std::uint32_t draw = 0;      ///< counts the draws of the frame, not its clears
   std::uint32_t triangle = 0;  ///< in the draw
+  std::uint8_t piece = 0;      ///< as in ScreenTriangle
   std::uint32_t surface = kNoSurface;
   std::uint8_t sample = 0;  ///< of each of its pixels
   std::uint32_t x = 0;      ///< top left pixel

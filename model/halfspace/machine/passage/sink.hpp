@@ -71,6 +71,7 @@ void show_quads(const QuadBurst& burst, const Tested& tested, const std::uint32_
   for_each_quad<TileSize>(burst, [&](const Quad& quad) {
     QuadEvent event{.draw = draw.draw,
                     .triangle = triangle.triangle,
+                    .piece = triangle.piece,
                     .surface = draw.surface,
                     .sample = static_cast<std::uint8_t>(burst.coverage.tile_x % samples),
                     .x = static_cast<std::uint32_t>(burst.coverage.tile_x / samples * TileSize + quad.x),
