@@ -134,7 +134,7 @@ class Reference {
 
   void triangle(const ScreenTriangle& in, const DrawStatePacket& draw) {
     const Widths& widths = machine_.widths;
-    packets[HALFSPACE_TRIANGLE].push_back(join(widths, to_packet(in), draw));
+    packets[HALFSPACE_TRIANGLE].push_back(join(widths, to_packet(in, Conservative::kOff), draw));
     SetupState state{.sub_pixel_bits = widths.SubPixelBits,
                      .front_positive_area = draw.front_positive_area != 0,
                      .cull_front = draw.cull_front != 0,
