@@ -13,3 +13,10 @@ foreach(configuration "4;8;4;4;1;16;2;16;2" "4;5;1;1;1;1;1;1;1" "8;6;8;2;4;32;1;
                  -DHALFSPACE_Z_PARTS=${z_parts} -GLines=${lines} -GWays=${ways} -GReadBytes=${bytes}
                  -GWriteBytes=${bytes} -GHiZ=1'b1 -GCompression=1'b1 -GLateQueue=${late})
 endforeach()
+
+# Squares: pixels, uncertainty, sub-pixel bits, interpolator
+foreach(configuration "1;0;8;1" "1;128;8;1" "1;8;4;1" "2;1;8;1" "2;1;8;0")
+  list(POP_FRONT configuration conservative uncertainty sub_pixel_bits interpolator)
+  halfspace_lint(c${conservative}_u${uncertainty}_s${sub_pixel_bits}_z${interpolator} -GConservative=${conservative}
+                 -GUncertainty=${uncertainty} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -GInterpolator=${interpolator})
+endforeach()

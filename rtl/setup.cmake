@@ -11,3 +11,9 @@ foreach(sub_pixel_bits RANGE 4 8)
                    -GHiZ=1'b1 -GThinLines=1'b1)
   endforeach()
 endforeach()
+# Squares: pixels, uncertainty, sub-pixel bits, interpolator
+foreach(configuration "1;0;8;1" "1;1;8;0" "1;128;8;1" "2;1;8;1" "2;8;4;0")
+  list(POP_FRONT configuration conservative uncertainty sub_pixel_bits interpolator)
+  halfspace_lint(c${conservative}_u${uncertainty}_s${sub_pixel_bits}_z${interpolator} -GConservative=${conservative}
+                 -GUncertainty=${uncertainty} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -GInterpolator=${interpolator})
+endforeach()

@@ -11,10 +11,12 @@
 
 namespace halfspace::stress {
 
-/// In units of the last place of the stored code at the sample of `error`.
+/// In units of the last place of the stored code at the sample of `error`. `spread`: the sum of the
+/// magnitudes of the vertices' weights there, 1 inside the triangle; outside, the plane carries on what the
+/// vertices were rounded by.
 inline double depth_bound(const Precision& precision, DepthInterpolator interpolator,
                           const std::array<float, 3>& z, const ExactPlane& plane,
-                          const ExactPlane::Error& error) {
+                          const ExactPlane::Error& error, double spread = 1) {
   const DepthFormat format = precision.format;
   // The front end resolves depths that are tiny beside the largest vertex, where it covers centres and
   // samples are there.
@@ -30,12 +32,13 @@ inline double depth_bound(const Precision& precision, DepthInterpolator interpol
     }
     // An offset is a float32, and where terms cancel they keep their own last place.
     const double rounded = plane.offset() == 0 ? 0 : std::max(plane.offset() * 0x1p-24, 0x1p-150);
-    const double absolute = rounded + largest * (is_plane ? 0x1p-58 : 5 * 0x1p-31);
+    const double carried = (spread - 1) * 0x1p-63;  // words of vertices are cut
+    const double absolute = rounded + largest * (is_plane ? 0x1p-58 + carried : 5 * 0x1p-31);
     return is_plane && by_sample && plane.offset() == 0 ? relative : relative + absolute / error.unit;
   }
   // Vertices and offset are rounded to half a unit of a vertex depth each.
   const double fraction = std::ldexp(1.0, -vertex_depth_fraction(format));
-  const double rounding = 0.5 + (plane.offset() == 0 ? 0.5 : 1) * fraction;
+  const double rounding = 0.5 + ((plane.offset() == 0 ? 0 : 0.5) + 0.5 * spread) * fraction;
   // Which words the plane takes is decided by the rounded vertices: one just below 0 is 0.
   const bool beyond =
       vertex_depth_code(format, least) < 0 || vertex_depth_code(format, most) >= kShortWordEnd;

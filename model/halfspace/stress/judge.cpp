@@ -1,6 +1,7 @@
 #include "halfspace/stress/judge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -93,6 +94,16 @@ bool has_centre(const reference::GridTriangle& triangle, const reference::GridPo
   return precision.conservative != Conservative::kOuter || reference::fills(triangle, point);
 }
 
+/// The sum of the magnitudes of the vertices' weights at a place: 1 inside the triangle, more outside.
+double spread_at(const reference::GridTriangle& t, const reference::GridPoint& place) {
+  const auto area = [](const reference::GridPoint& a, const reference::GridPoint& b,
+                       const reference::GridPoint& c) {
+    return std::abs(static_cast<double>(reference::twice_area(a, b, c)));
+  };
+  return (area(t[1], t[2], place) + area(t[2], t[0], place) + area(t[0], t[1], place)) /
+         area(t[0], t[1], t[2]);
+}
+
 /// Calls visit(pixel, error, bound) for each depth that the definition knows.
 template <class Visit>
 void each_depth(const Case& made, const Precision& precision, const DepthLaw& law,
@@ -120,8 +131,9 @@ void each_depth(const Case& made, const Precision& precision, const DepthLaw& la
     if (outside && law.interpolator == DepthInterpolator::kBarycentric) {
       error.ulps = error.beyond;
     }
-    const double bound =
-        law.bound ? *law.bound : depth_bound(precision, law.interpolator, triangle.z, plane, error);
+    const double bound = law.bound ? *law.bound
+                                   : depth_bound(precision, law.interpolator, triangle.z, plane, error,
+                                                 outside ? spread_at(triangle.grid, sample) : 1);
     visit(at, error, bound);
   }
 }

@@ -1,10 +1,14 @@
 // setup_cull: the verdict three cycles after a triangle. Twice its area, with its sign taken off; whether it is drawn;
-// its bounds; and its vertices in positive order, the topmost, then leftmost first.
+// its bounds; and its vertices in positive order, the topmost, then leftmost first. By squares, bounds reach as far as these,
+// and an outer triangle without area is drawn.
 
 module setup_cull_properties
   import raster_pkg::*;
   import setup_pkg::*;
-(
+#(
+  parameter int unsigned Conservative = 0,
+  parameter int unsigned Uncertainty = 0
+) (
   input logic             clk_i,
   input logic             rst_ni,
   input logic             valid_i,
@@ -32,7 +36,10 @@ module setup_cull_properties
   logic     valid;
   verdict_t verdict;
 
-  setup_cull u_dut (
+  setup_cull #(
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty)
+  ) u_dut (
     .clk_i      (clk_i),
     .rst_ni     (rst_ni),
     .valid_i    (valid_i),
@@ -53,8 +60,17 @@ module setup_cull_properties
                 - (area_sum_t'(t.x[2]) - area_sum_t'(t.x[0]))
                   * (area_sum_t'(t.y[1]) - area_sum_t'(t.y[0]));
 
-  // Pixel centres are at half a pixel: the first one in the box is rounded up, the last one down.
+  // Pixel centres are at half a pixel: the first one in the box, grown by what squares reach, is rounded up, the last one
+  // down.
   typedef logic signed [CoordBits+1:0] pixel_t;
+
+  localparam pixel_t Square = (pixel_t'(1) <<< (SubPixelBits - 1)) + pixel_t'(Uncertainty);
+
+  logic   by_square, flat_drawn;
+  pixel_t reach;
+  assign by_square  = t.by_square && Conservative != 0;
+  assign reach      = !by_square ? '0 : Conservative == 1 ? Square : -Square;
+  assign flat_drawn = by_square && Conservative == 1 && area == 0;
 
   function automatic pixel_t least(coord_t [2:0] c);
     pixel_t found = pixel_t'(c[0]);
@@ -69,13 +85,13 @@ module setup_cull_properties
   endfunction
 
   function automatic pixel_t first(coord_t [2:0] c, logic [PixelBits-1:0] limit);
-    pixel_t pixel = (least(c) - (pixel_t'(1) <<< (SubPixelBits - 1))
+    pixel_t pixel = (least(c) - reach - (pixel_t'(1) <<< (SubPixelBits - 1))
                      + (pixel_t'(1) <<< SubPixelBits) - 1) >>> SubPixelBits;
     return pixel > pixel_t'({1'b0, limit}) ? pixel : pixel_t'({1'b0, limit});
   endfunction
 
   function automatic pixel_t last(coord_t [2:0] c, logic [PixelBits-1:0] limit);
-    pixel_t pixel = (most(c) - (pixel_t'(1) <<< (SubPixelBits - 1))) >>> SubPixelBits;
+    pixel_t pixel = (most(c) + reach - (pixel_t'(1) <<< (SubPixelBits - 1))) >>> SubPixelBits;
     return pixel < pixel_t'({1'b0, limit}) ? pixel : pixel_t'({1'b0, limit});
   endfunction
 
@@ -86,7 +102,7 @@ module setup_cull_properties
   assign y_last  = last(t.y, s.y_last);
 
   logic front, culled, outside;
-  assign front   = (area > 0) == s.front_positive_area;
+  assign front   = (area > 0) == s.front_positive_area && !flat_drawn;
   assign culled  = front ? s.cull_front : s.cull_back;
   assign outside = s.empty || x_first > x_last || y_first > y_last;
 
@@ -96,7 +112,7 @@ module setup_cull_properties
     for (int unsigned i = 0; i < 3; i++) begin
       automatic int unsigned from = area < 0 ? (k + 3 - i) % 3 : (k + i) % 3;
       turned &= verdict.triangle.x[i] == t.x[from] && verdict.triangle.y[i] == t.y[from]
-                && verdict.triangle.z[i] == t.z[from];
+                && verdict.triangle.z[i] == t.z[flat_drawn ? 0 : from];
     end
   endfunction
 
@@ -113,7 +129,8 @@ module setup_cull_properties
   always_comb begin
     ValidAfterLatency: assert (valid == taken[Latency]);
     if (valid) begin
-      Drawn: assert (verdict.drawn == (area != 0 && !culled && !outside));
+      Drawn: assert (verdict.drawn == ((area != 0 || flat_drawn) && !culled && !outside));
+      SquareStays: assert (verdict.triangle.by_square == by_square);
       Area: assert (verdict.area2 == area_t'(area < 0 ? -area : area));
       StateStays: assert (verdict.state == s && verdict.triangle.offset == t.offset);
       Turned: assert (turned(0) || turned(1) || turned(2));
@@ -127,6 +144,7 @@ module setup_cull_properties
     end
 
     DrawnTurned: cover (valid && verdict.drawn && area < 0);
+    FlatOrNever: cover (valid && (Conservative != 1 || (verdict.drawn && area == 0)));
     OnePixel: cover (valid && verdict.drawn && x_first == x_last && y_first == y_last);
     Culled: cover (valid && !verdict.drawn && area != 0 && !outside);
     NoCentre: cover (valid && !verdict.drawn && area != 0 && !culled && !s.empty);

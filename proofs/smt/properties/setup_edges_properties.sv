@@ -1,4 +1,5 @@
-// setup_edges: what leaves four cycles after a triangle is its edge equations, as docs/numerics.md states them.
+// setup_edges: what leaves four cycles after a triangle is its edge equations, as docs/numerics.md states them; by squares,
+// as docs/guides/conservative.md does.
 //
 // Edges 1 and 2 are stated from vertex 0, edge 0 from the area, as in the RTL, so that products may be any function of
 // their operands; lemmas/edges.smt2 says that the unit in C++ states the same.
@@ -8,7 +9,9 @@ module setup_edges_properties
   import setup_pkg::*;
 #(
   // More than EdgeBits: nothing below overflows, whatever the RTL does.
-  parameter int unsigned WideBits = EdgeBits
+  parameter int unsigned WideBits = EdgeBits,
+  parameter int unsigned Conservative = 0,
+  parameter int unsigned Uncertainty = 0
 ) (
   input logic                    clk_i,
   input logic                    rst_ni,
@@ -18,7 +21,8 @@ module setup_edges_properties
   input area_t                   area2_i,
   input logic [PixelBits-1:0]    x_first_i,
   input logic [PixelBits-1:0]    y_first_i,
-  input logic [FillRuleBits-1:0] rule_i
+  input logic [FillRuleBits-1:0] rule_i,
+  input logic                    by_square_i
 );
 
   localparam int unsigned Latency = 4;
@@ -32,6 +36,7 @@ module setup_edges_properties
     logic [PixelBits-1:0]    x_first;
     logic [PixelBits-1:0]    y_first;
     logic [FillRuleBits-1:0] rule;
+    logic                    by_square;
   } triangle_t;
 
   logic [Latency:0]      taken;
@@ -39,7 +44,8 @@ module setup_edges_properties
 
   assign taken[0]    = valid_i;
   assign triangle[0] = '{x: x_i, y: y_i, area2: area2_i,
-                         x_first: x_first_i, y_first: y_first_i, rule: rule_i};
+                         x_first: x_first_i, y_first: y_first_i, rule: rule_i,
+                         by_square: by_square_i && Conservative != 0};
 
   always_ff @(posedge clk_i) begin
     taken[Latency:1]    <= rst_ni ? taken[Latency-1:0] : '0;
@@ -51,7 +57,10 @@ module setup_edges_properties
   step_t [2:0] a, b;
   logic [2:0]  bias;
 
-  setup_edges u_dut (
+  setup_edges #(
+    .Conservative (Conservative),
+    .Uncertainty  (Uncertainty)
+  ) u_dut (
     .clk_i              (clk_i),
     .rst_ni             (rst_ni),
     .valid_i            (valid_i),
@@ -61,7 +70,7 @@ module setup_edges_properties
     .x_first_i          (x_first_i),
     .y_first_i          (y_first_i),
     .fill_rule_i        (rule_i),
-    .by_square_i        (1'b0),
+    .by_square_i        (by_square_i),
     .valid_o            (valid),
     .e_o                (e),
     .a_o                (a),
@@ -81,8 +90,15 @@ module setup_edges_properties
     return (wide_t'({1'b0, first}) <<< SubPixelBits) + (wide_t'(1) <<< (SubPixelBits - 1));
   endfunction
 
+  // Half a pixel and the uncertainty, times the change of E for a step in x and one in y.
+  function automatic wide_t way_to_corner(wide_t dx, wide_t dy);
+    wide_t change = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+    way_to_corner = change <<< (SubPixelBits - 1);
+    for (int unsigned i = 0; i < Uncertainty; i++) way_to_corner += change;
+  endfunction
+
   triangle_t   t;
-  wide_t [2:0] wanted_a, wanted_b, wanted_e;
+  wide_t [2:0] wanted_a, wanted_b, wanted_e, square;
   logic [2:0]  owned;
 
   assign t = triangle[Latency];
@@ -93,7 +109,10 @@ module setup_edges_properties
       automatic int unsigned to = (i + 2) % 3;
       wanted_a[i] = wide_t'(t.y[from]) - wide_t'(t.y[to]);
       wanted_b[i] = wide_t'(t.x[to]) - wide_t'(t.x[from]);
-      owned[i]    = owns(wanted_a[i], wanted_b[i], t.rule[0], t.rule[1]);
+      owned[i]    = owns(wanted_a[i], wanted_b[i], t.rule[0], t.rule[1]) || t.by_square;
+      square[i]   = !t.by_square ? '0
+                    : Conservative == 1 ? way_to_corner(wanted_a[i], wanted_b[i])
+                                        : -way_to_corner(wanted_a[i], wanted_b[i]);
       wanted_e[i] = wanted_a[i] * (start(t.x_first) - wide_t'(t.x[0]))
                     + wanted_b[i] * (start(t.y_first) - wide_t'(t.y[0]));
     end
@@ -102,13 +121,14 @@ module setup_edges_properties
 
   for (genvar i = 0; i < 3; i++) begin : gen_edge
     always_comb begin
-      // A triangle with two equal vertices has no area: setup_cull lets none pass.
-      VerticesApart: assume (x_i[i] != x_i[(i+1)%3] || y_i[i] != y_i[(i+1)%3]);
+      // A triangle with two equal vertices has no area: setup_cull lets none pass that is not drawn by squares.
+      VerticesApart: assume (x_i[i] != x_i[(i+1)%3] || y_i[i] != y_i[(i+1)%3]
+                             || (by_square_i && Conservative != 0));
       if (valid) begin
         StepA: assert (wide_t'(a[i]) == wanted_a[i]);
         StepB: assert (wide_t'(b[i]) == wanted_b[i]);
         BiasUnlessOwned: assert (bias[i] == !owned[i]);
-        Edge: assert (wide_t'(e[i]) == wanted_e[i] - wide_t'({1'b0, !owned[i]}));
+        Edge: assert (wide_t'(e[i]) == wanted_e[i] - wide_t'({1'b0, !owned[i]}) + square[i]);
       end
     end
   end
@@ -116,8 +136,9 @@ module setup_edges_properties
   always_comb begin
     ValidAfterLatency: assert (valid == taken[Latency]);
 
-    RightOwned: cover (valid && t.rule == 2'd3 && owned[1] && a[1] < 0);
-    OwnedHorizontal: cover (valid && owned[1] && a[1] == 0);
+    RightOwned: cover (valid && t.rule == 2'd3 && owned[1] && a[1] < 0 && !t.by_square);
+    OwnedHorizontal: cover (valid && owned[1] && a[1] == 0 && !t.by_square);
+    BySquareOrNever: cover (valid && (t.by_square || Conservative == 0));
     NotOwnedHorizontal: cover (valid && !owned[2] && a[2] == 0 && b[2] != 0);
     SampleOnEdge: cover (valid && wanted_e[1] == 0);
   end

@@ -19,7 +19,11 @@ std::string value_text(bool value) { return value ? "1'b1" : "1'b0"; }
 
 }  // namespace
 
-std::vector<std::string> pipeline_arguments(const Config& config) {
+std::vector<std::string> pipeline_arguments(const Config& machine) {
+  Config config = machine;
+  if (config.raster.conservative == Conservative::kOff) {
+    config.raster.uncertainty = Config{}.raster.uncertainty;  // of nothing: no other RTL
+  }
   if (!sample_pattern(config).is_centre()) {
     throw OptionError(
         fmt::format("configuration key 'raster.samples' is {}; legal in the RTL: 1, at the pixel "

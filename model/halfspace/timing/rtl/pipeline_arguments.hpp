@@ -19,6 +19,6 @@ inline constexpr std::uint32_t kMemoryBlocks = 16384;
 /// that the RTL knows, in the order of the keys; then MemoryTiles and
 /// MemoryBlocks. The same arguments mean the same RTL.
 /// Throws InputError where there is no RTL for the configuration.
-[[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& config);
+[[nodiscard]] std::vector<std::string> pipeline_arguments(const Config& machine);
 
 }  // namespace halfspace::rtl
