@@ -13,3 +13,7 @@ foreach(configuration "4;8;4;4;1;16;2;16;2" "4;5;1;1;1;1;1;1;1" "8;6;8;2;4;32;1;
                  -DHALFSPACE_Z_PARTS=${z_parts} -GLines=${lines} -GWays=${ways} -GReadBytes=${bytes}
                  -GWriteBytes=${bytes} -GHiZ=1'b1 -GCompression=1'b1 -GLateQueue=${late})
 endforeach()
+foreach(samples 2 4 8 16)
+  halfspace_lint(samples${samples} -DHALFSPACE_SAMPLES=${samples})
+  halfspace_lint(samples${samples}_barycentric -DHALFSPACE_SAMPLES=${samples} -DHALFSPACE_TILE_SIZE=4 -GInterpolator=1)
+endforeach()

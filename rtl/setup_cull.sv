@@ -6,6 +6,8 @@
 
 module setup_cull
   import raster_pkg::*;
+  import sample_pkg::*;
+  import sample_box_pkg::*;
   import setup_pkg::*;
 (
   input  logic             clk_i,
@@ -130,7 +132,7 @@ module setup_cull
   // Third register: the area and its negative, side by side so that its size needs no second carry chain, and the
   // bounds, with a range beyond the screen.
   localparam int unsigned ReachBits = StepBits - SubPixelBits;
-  localparam step_t Half = step_t'(1) <<< (SubPixelBits - 1);
+  localparam step_t LastOfPixel = (step_t'(1) <<< SubPixelBits) - step_t'(1);
 
   typedef logic signed [ReachBits-1:0] reach_t;
 
@@ -146,16 +148,19 @@ module setup_cull
     reach_t           y_last;
   } sized_t;
 
-  // The centre of pixel p is at p 2^SubPixelBits + Half: the first pixel rounds up, the last rounds down.
-  function automatic reach_t first_pixel(coord_t min, logic [PixelBits-1:0] limit);
-    step_t  moved = step_t'(min) + (Half - step_t'(1));
+  // The samples of pixel p are at p 2^SubPixelBits + least to p 2^SubPixelBits + most: the first pixel rounds up, the
+  // last rounds down. Of one sample at the centre both are half a pixel.
+  function automatic reach_t first_pixel(coord_t min, grid_t most_sample,
+                                         logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(min) + (LastOfPixel - step_t'({1'b0, sub_pixels(most_sample)}));
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel > bound ? pixel : bound;
   endfunction
 
-  function automatic reach_t last_pixel(coord_t max, logic [PixelBits-1:0] limit);
-    step_t  moved = step_t'(max) - Half;
+  function automatic reach_t last_pixel(coord_t max, grid_t least_sample,
+                                        logic [PixelBits-1:0] limit);
+    step_t  moved = step_t'(max) - step_t'({1'b0, sub_pixels(least_sample)});
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel < bound ? pixel : bound;
@@ -171,15 +176,15 @@ module setup_cull
         first:    product_q.first,
         area:     product_q.plus - product_q.minus,
         negated:  product_q.minus - product_q.plus,
-        x_first:  first_pixel(product_q.x_min, product_q.state.x_first),
-        x_last:   last_pixel(product_q.x_max, product_q.state.x_last),
-        y_first:  first_pixel(product_q.y_min, product_q.state.y_first),
-        y_last:   last_pixel(product_q.y_max, product_q.state.y_last)
+        x_first:  first_pixel(product_q.x_min, MostX, product_q.state.x_first),
+        x_last:   last_pixel(product_q.x_max, LeastX, product_q.state.x_last),
+        y_first:  first_pixel(product_q.y_min, MostY, product_q.state.y_first),
+        y_last:   last_pixel(product_q.y_max, LeastY, product_q.state.y_last)
       };
     end
   end
 
-  // The verdict. A bounding box without a pixel centre has no pixel in common with the screen either.
+  // The verdict. A bounding box without a sample has no pixel in common with the screen either.
   logic negative, front, culled, no_pixel;
   assign negative = sized_q.area[AreaBits];
   assign front    = negative != sized_q.state.front_positive_area;

@@ -62,8 +62,10 @@ class DepthBench {
                                                             DepthFormat::kFloat32, DepthFormat::kFloat32};
     const DepthFormat format = kFormats[random_.below(4)];
     const SetupTriangle triangle = random_triangle(widths_, format, interpolator_, 512, 512, random_);
-    const EarlyZState state{
-        .format = format, .interpolator = interpolator_, .sub_pixel_bits = widths_.SubPixelBits};
+    const EarlyZState state{.format = format,
+                            .interpolator = interpolator_,
+                            .sub_pixel_bits = widths_.SubPixelBits,
+                            .samples = standard_samples(widths_.PixelSamples)};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
     pack(to_packet(triangle, format, interpolator_), widths_, words);
     set_port(dut_->equation_i, words);
@@ -123,7 +125,7 @@ class DepthBench {
     }
   }
 
-  Widths widths_{.SubPixelBits = HALFSPACE_SUB_PIXEL_BITS};
+  Widths widths_{.SubPixelBits = HALFSPACE_SUB_PIXEL_BITS, .PixelSamples = HALFSPACE_SAMPLES};
   DepthInterpolator interpolator_ = static_cast<DepthInterpolator>(HALFSPACE_INTERPOLATOR);
   Random random_;
   bool fault_;

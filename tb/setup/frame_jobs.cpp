@@ -11,6 +11,7 @@ std::vector<SetupJob> frame_jobs(const std::filesystem::path& file, const SetupM
   const Frame frame = load(file);
   Config config;
   config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
+  config.raster.samples = model.samples;
   config.tile_walker.tile_size = model.dut.tile_size;
   config.block_walker.block_size = model.block_size;
   FrameResult result;

@@ -88,6 +88,7 @@ SetupResult reference(const SetupJob& job, const SetupModel& model) {
   SetupResult result;
   SetupState state = setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator());
   state.hi_z = model.hi_z;
+  state.samples = model.pattern().box();
   result.verdict = setup(triangle, state, result.triangle);
   return result;
 }

@@ -19,14 +19,15 @@ struct SetupPins {
 
 template <class Model>
 SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int block_size, int queue,
-                     int fifo, int interval, int interpolator, int hi_z) {
+                     int fifo, int interval, int interpolator, int hi_z, int samples) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
           queue,
           fifo,
           interval,
           block_size,
           interpolator,
-          hi_z != 0};
+          hi_z != 0,
+          samples};
 }
 
 }  // namespace halfspace::tb

@@ -28,9 +28,10 @@ struct Band {
   [[nodiscard]] Point clamp(Point p) const {
     return {std::clamp(p.x, low, high), std::clamp(p.y, low, high)};
   }
-  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const {
-    return {x * one + one / 2, y * one + one / 2};
+  [[nodiscard]] Point in_pixel(std::int64_t x, std::int64_t y, const SamplePosition& at) const {
+    return {x * one + at.x * one / kSampleGrid, y * one + at.y * one / kSampleGrid};
   }
+  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const { return in_pixel(x, y, {}); }
 
   std::int64_t one;  ///< a pixel
   std::int64_t low;
@@ -77,8 +78,7 @@ void add_orders(std::vector<SetupJob>& jobs, const Band& band) {
     std::array<std::size_t, 3> order = {0, 1, 2};
     do {
       for (unsigned flags = 0; flags < 32; ++flags) {
-        SetupJob job;
-        job.state = open_state(kFormats[flags % 4]);
+        SetupJob job{.triangle = {}, .state = open_state(kFormats[flags % 4])};
         job.state.front_positive_area = flags & 1;
         job.state.cull_front = flags >> 1 & 1;
         job.state.cull_back = flags >> 2 & 1;
@@ -99,8 +99,7 @@ void add_orders(std::vector<SetupJob>& jobs, const Band& band) {
 void add_areas(std::vector<SetupJob>& jobs, const Band& band) {
   const auto add = [&](Point p, Point q, Point r) {
     for (const std::uint8_t format : kFormats) {
-      SetupJob job;
-      job.state = open_state(format);
+      SetupJob job{.triangle = {}, .state = open_state(format)};
       set_vertices(job, {band.clamp(p), band.clamp(q), band.clamp(r)});
       job.triangle.z = {0, largest_depth(format), largest_depth(format) / 3};
       jobs.push_back(job);
@@ -123,7 +122,18 @@ void add_areas(std::vector<SetupJob>& jobs, const Band& band) {
   add({band.low, band.low}, {band.high, band.high}, {0, 0});
 }
 
-/// Boxes whose corners lie on, before and behind centres, at the borders of tiles, blocks and the scissor.
+/// Triangles of the box from p to q, moved by a sub-pixel to either side or not.
+void add_box(std::vector<SetupJob>& jobs, const DrawStatePacket& state, const Point& p, const Point& q) {
+  for (const std::int64_t nudge : {-1, 0, 1}) {
+    SetupJob job{.triangle = {}, .state = state};
+    set_vertices(job, {Point{p.x + nudge, p.y - nudge}, Point{q.x - nudge, p.y}, Point{q.x, q.y + nudge}});
+    jobs.push_back(job);
+    std::swap(job.triangle.x[1], job.triangle.x[2]);
+    jobs.push_back(job);
+  }
+}
+
+/// Boxes whose corners lie on, before and behind samples, at the borders of tiles, blocks and the scissor.
 void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel& model) {
   const std::array<std::int64_t, 7> pixels = {
       0, 1, model.dut.tile_size - 1, model.dut.tile_size, model.block_size - 1, model.block_size, kScreen};
@@ -136,16 +146,8 @@ void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel&
   for (const DrawStatePacket& state : {whole, cut, empty}) {
     for (const std::int64_t first : pixels) {
       for (const std::int64_t last : pixels) {
-        for (const std::int64_t nudge : {-1, 0, 1}) {
-          const Point p = band.centre(first, last);
-          const Point q = band.centre(last, first);
-          SetupJob job;
-          job.state = state;
-          set_vertices(job,
-                       {Point{p.x + nudge, p.y - nudge}, Point{q.x - nudge, p.y}, Point{q.x, q.y + nudge}});
-          jobs.push_back(job);
-          std::swap(job.triangle.x[1], job.triangle.x[2]);
-          jobs.push_back(job);
+        for (const SamplePosition& place : model.bounding_places()) {
+          add_box(jobs, state, band.in_pixel(first, last, place), band.in_pixel(last, first, place));
         }
       }
     }
@@ -153,8 +155,7 @@ void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel&
   // Beyond each side of the screen.
   for (const Point origin :
        {Point{-100, 50}, Point{kScreen + 100, 50}, Point{50, -100}, Point{50, kScreen + 100}}) {
-    SetupJob job;
-    job.state = whole;
+    SetupJob job{.triangle = {}, .state = whole};
     set_vertices(job, {band.centre(origin.x, origin.y), band.centre(origin.x + 20, origin.y),
                        band.centre(origin.x, origin.y + 20)});
     jobs.push_back(job);
@@ -173,8 +174,7 @@ void add_depths(std::vector<SetupJob>& jobs, const Band& band) {
     for (const std::uint32_t z0 : depths) {
       for (const std::uint32_t z1 : depths) {
         for (const std::uint32_t z2 : depths) {
-          SetupJob job;
-          job.state = open_state(format);
+          SetupJob job{.triangle = {}, .state = open_state(format)};
           set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
           job.triangle.z = {z0, z1, z2};
           jobs.push_back(job);
@@ -197,8 +197,7 @@ void add_far_depths(std::vector<SetupJob>& jobs, const Band& band) {
   for (const DepthFormat format : {DepthFormat::kUnorm16, DepthFormat::kUnorm24}) {
     for (const std::int64_t depth : depths) {
       for (std::size_t vertex = 0; vertex < 3; ++vertex) {
-        SetupJob job;
-        job.state = open_state(static_cast<std::uint8_t>(format));
+        SetupJob job{.triangle = {}, .state = open_state(static_cast<std::uint8_t>(format))};
         set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
         job.triangle.z = {};
         job.triangle.z[vertex] = depth;
@@ -227,8 +226,7 @@ void add_steep(std::vector<SetupJob>& jobs, const Band& band) {
           const std::int64_t step =
               scale.format == 4 ? scale.step + ((times - 1) << 23) + more : scale.step * times + more;
           const std::int64_t length = (flags & 1) != 0 ? times : 1;
-          SetupJob job;
-          job.state = open_state(scale.format);
+          SetupJob job{.triangle = {}, .state = open_state(scale.format)};
           set_vertices(job, {band.centre(40, 40), band.centre(40 + length, 40), band.centre(40, 40 + kFar)});
           job.triangle.z = {0, step, scale.top};
           if ((flags & 2) != 0) {
@@ -249,8 +247,7 @@ void add_steep(std::vector<SetupJob>& jobs, const Band& band) {
 /// All bits of the state that only pass through, on a drawn triangle.
 void add_states(std::vector<SetupJob>& jobs, const Band& band, const Widths& widths) {
   const auto add = [&](auto set) {
-    SetupJob job;
-    job.state = open_state(2);
+    SetupJob job{.triangle = {}, .state = open_state(2)};
     set_vertices(job, {band.centre(5, 4), band.centre(30, 9), band.centre(7, 25)});
     set(job.state);
     jobs.push_back(job);
@@ -544,8 +541,7 @@ std::vector<SetupJob> timing_jobs(const SetupModel& model, const std::vector<boo
   const Band band(model.widths());
   std::vector<SetupJob> jobs;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    SetupJob job;
-    job.state = open_state(kFormats[i % 4]);
+    SetupJob job{.triangle = {}, .state = open_state(kFormats[i % 4])};
     number(job, i);
     const auto column = static_cast<std::int64_t>(i % 1000);
     set_vertices(job, {band.centre(column, 4), band.centre(column + 20, drawn[i] ? 9 : 4),
