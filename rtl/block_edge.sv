@@ -6,7 +6,8 @@
 //
 // An edge function is linear: over the samples of a tile it is largest at a corner, and the signs of a and b say at which.
 // What lies between the block's top left sample and that corner of a tile is the same in every block: the sum of a number
-// for the tile's row and one for its column. So a test is two adders, of which only the sign is used, and the first is
+// for the tile's row and one for its column. Where samples are not at the centres, the way from a centre to the corner of
+// the box of the samples comes to it: E mod 2^SubPixelBits is one number, so that way is a whole number of pixels' E too. So a test is two adders, of which only the sign is used, and the first is
 // that of the whole row.
 //
 // Of a triangle with few samples the same adders test these: rows and columns are those of samples, from the first of the
@@ -14,6 +15,8 @@
 
 module block_edge
   import raster_pkg::*;
+  import sample_pkg::*;
+  import sample_box_pkg::*;
   import walk_pkg::*;
 #(
   /// 0: no tile is found to be outside.
@@ -144,6 +147,23 @@ module block_edge
       return (down_t'(rising) <<< TileLog2) - down_t'(rising);
     endfunction
 
+    // From a centre to the corner of the box of the samples where E is largest.
+    down_t largest_sample;
+
+    if (AtCentre) begin : gen_centre
+      assign largest_sample = '0;
+    end else begin : gen_box
+      localparam int unsigned WayBits = StepBits + SampleGridLog2 + 1 + SubPixelBits;
+      typedef logic signed [WayBits-1:0] way_t;
+      to_sample_t to_corner;
+      way_t       way;
+      assign to_corner = sixteenths(a_i, from_centre(a_i[StepBits-1] ? LeastX : MostX))
+                         + sixteenths(b_i, from_centre(b_i[StepBits-1] ? LeastY : MostY));
+      assign way = (way_t'(to_corner) <<< (SubPixelBits - SampleGridLog2))
+                   + way_t'({1'b0, edge_i[SubPixelBits-1:0]});
+      assign largest_sample = down_t'(way >>> SubPixelBits);
+    end
+
     // To a row, and there to the point of its first tile or sample; to a column.
     down_t   down_q   [RowTiles];
     across_t across_q [RowTiles];
@@ -158,7 +178,7 @@ module block_edge
         if (load_i) begin
           down_q[i]   <= SampleReject && samples_i
                          ? down_t'(steps(b_i, Sample)) + first_sample
-                         : down_t'(steps(b_i, Tile)) + to_largest(a_i, b_i);
+                         : down_t'(steps(b_i, Tile)) + to_largest(a_i, b_i) + largest_sample;
           across_q[i] <= SampleReject && samples_i ? steps(a_i, Sample) : steps(a_i, Tile);
         end
       end
@@ -187,7 +207,8 @@ module block_edge
         blocks_down_t to_largest_block, blocks_down_q [RowTiles];
         sum_t         rising;
         assign rising = (a_i[StepBits-1] ? '0 : sum_t'(a_i)) + (b_i[StepBits-1] ? '0 : sum_t'(b_i));
-        assign to_largest_block = (blocks_down_t'(rising) <<< BlockLog2) - blocks_down_t'(rising);
+        assign to_largest_block = (blocks_down_t'(rising) <<< BlockLog2) - blocks_down_t'(rising)
+                                  + blocks_down_t'(largest_sample);
 
         for (genvar i = 0; i < RowTiles; i++) begin : gen_steps
           localparam logic [BlockLog2-1:0] Tile = BlockLog2'(i * TileSize);

@@ -1,4 +1,6 @@
 raster_pkg.sv
+sample_pkg.sv
+sample_box_pkg.sv
 walk_pkg.sv
 credits.sv
 memory_fifo.sv

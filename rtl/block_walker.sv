@@ -7,6 +7,7 @@
 
 module block_walker
   import raster_pkg::*;
+  import sample_pkg::*;
   import walk_pkg::*;
 #(
   /// Slots of the output FIFO, 2 or more, each as wide as block_job_t. A block takes two cycles to the FIFO's output, so
@@ -58,6 +59,10 @@ module block_walker
       || (!TrivialReject && (Levels == 3 || Order inside {BacktrackingWalk, ZigzagWalk}))
       || (Levels == 3 && Order inside {BacktrackingWalk, ZigzagWalk})) begin : gen_illegal_walk
     $error("Levels and Order: docs/units/block_walker.md says which go together");
+  end
+
+  if (!AtCentre && (SampleReject || HiZ)) begin : gen_illegal_samples
+    $error("SampleReject and HiZ are for one sample at the centre of a pixel");
   end
 
   logic load;

@@ -22,7 +22,7 @@ module depth_interpolator
   input  logic                                  valid_i,
   input  logic [FormatBits-1:0]                 format_i,
   input  depth_equation_t                       equation_i,
-  input  logic [TileCoordBits-1:0]              tile_x_i,
+  input  logic [TileColumnBits-1:0]             tile_x_i,
   input  logic [TileCoordBits-1:0]              tile_y_i,
   input  edge_t [1:0]                           e_i,
   input  logic [Quads-1:0] [QuadIndexBits-1:0]  index_i,

@@ -7,6 +7,8 @@
 module depth_plane
   import raster_pkg::*;
   import depth_pkg::*;
+  import sample_pkg::*;
+  import sample_box_pkg::*;
 #(
   /// Quads of a beat, 1 or more.
   parameter int unsigned Quads = TestWidth
@@ -17,7 +19,7 @@ module depth_plane
   input  logic                                  valid_i,
   input  logic [FormatBits-1:0]                 format_i,
   input  depth_equation_t                       equation_i,
-  input  logic [TileCoordBits-1:0]              tile_x_i,
+  input  logic [TileColumnBits-1:0]             tile_x_i,
   input  logic [TileCoordBits-1:0]              tile_y_i,
   input  logic [Quads-1:0] [QuadIndexBits-1:0]  index_i,
   /// Codes of other samples mean nothing.
@@ -75,7 +77,7 @@ module depth_plane
     end
   end
 
-  // 1: from vertex 0 to the centre of the first pixel of the square that additions start from. It is the same for all
+  // 1: from vertex 0 to the sample of the first pixel of the square that additions start from. It is the same for all
   // sizes of tiles; the tile's place in it follows in stage 6.
   localparam int unsigned AnchorLog2 = 4;
 
@@ -91,18 +93,24 @@ module depth_plane
   function automatic logic [PixelBits-1:0] first_pixel(logic [TileCoordBits-1:0] tile);
     return {tile, {TileLog2{1'b0}}};
   endfunction
-  function automatic step_t centre(logic [PixelBits-AnchorLog2-1:0] anchor);
-    return step_t'({1'b0, anchor, {AnchorLog2{1'b0}}, 1'b1, {(SubPixelBits - 1) {1'b0}}});
+  function automatic step_t sample_at(logic [PixelBits-AnchorLog2-1:0] anchor, grid_t in_pixel);
+    return step_t'({1'b0, anchor, {AnchorLog2{1'b0}}, sub_pixels(in_pixel)});
   endfunction
 
   logic [PixelBits-1:0] x_first, y_first;
-  assign x_first = first_pixel(tile_x_i);
+  assign x_first = first_pixel(TileCoordBits'(tile_x_i >> SampleLog2));
   assign y_first = first_pixel(tile_y_i);
+
+  // The sample of the tile.
+  int unsigned sample;
+  assign sample = 32'(tile_x_i) & (PixelSamples - 1);
 
   always_ff @(posedge clk_i) begin
     if (valid[0]) begin
-      right_q <= centre(x_first[PixelBits-1:AnchorLog2]) - step_t'(equation_i.x);
-      down_q  <= centre(y_first[PixelBits-1:AnchorLog2]) - step_t'(equation_i.y);
+      right_q <= sample_at(x_first[PixelBits-1:AnchorLog2], position(sample, 1'b0))
+                 - step_t'(equation_i.x);
+      down_q  <= sample_at(y_first[PixelBits-1:AnchorLog2], position(sample, 1'b1))
+                 - step_t'(equation_i.y);
       dx1_q   <= equation_i.dx;
       dy1_q   <= equation_i.dy;
     end

@@ -128,7 +128,7 @@ module early_z
     logic                     touches;
     logic                     half;
     logic [TileBits-1:0]      first_tile;
-    logic [TileCoordBits-1:0] tiles_x;
+    logic [TileColumnBits-1:0] tiles_x;
   } lookup_state_t;
 
   typedef struct packed {
@@ -298,7 +298,7 @@ module early_z
     logic                                     first;
     burst_t                                   burst;
     logic [SlotBits-1:0]                      slot;
-    logic [TileCoordBits-1:0]                 tile_x;
+    logic [TileColumnBits-1:0]                tile_x;
     logic [TileCoordBits-1:0]                 tile_y;
     logic                                     last;
     logic [TestWidth-1:0] [QuadIndexBits-1:0] index;

@@ -39,7 +39,7 @@ module edge_evaluator
   typedef struct packed {
     logic [SlotBits-1:0]      slot;
     logic                     sure;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0]              e;
     logic [EdgeCount-1:0]     accept;

@@ -48,7 +48,7 @@ module quad_generator
   // What all beats of a burst share.
   typedef struct packed {
     logic [SlotBits-1:0]             slot;
-    logic [TileCoordBits-1:0]        tile_x;
+    logic [TileColumnBits-1:0]       tile_x;
     logic [TileCoordBits-1:0]        tile_y;
     edge_t [1:0]                     e;
     logic [ZParts-1:0][FlagBits-1:0] parts;

@@ -4,6 +4,8 @@
 // model/halfspace/units/link_packets.hpp, model/halfspace/units/z_codec.hpp, model/halfspace/machine/shape.hpp and
 // model/halfspace/timing/contract.hpp: change those and print this file again. A configuration is chosen by defines:
 // -DHALFSPACE_SUB_PIXEL_BITS=4..8
+// -DHALFSPACE_SAMPLES=1|2|4|8|16
+// -DHALFSPACE_SAMPLE_POSITIONS=128'h...: x and y of each sample in 16ths of a pixel, the first last
 // -DHALFSPACE_BLOCK_SIZE=8|16|32|64
 // -DHALFSPACE_TILE_SIZE=4|8|16
 // -DHALFSPACE_QUAD_WIDTH=1|2|4|8|16
@@ -12,6 +14,16 @@
 
 `ifndef HALFSPACE_SUB_PIXEL_BITS
 `define HALFSPACE_SUB_PIXEL_BITS 8
+`endif
+`ifndef HALFSPACE_SAMPLES
+`define HALFSPACE_SAMPLES 1
+`endif
+`ifndef HALFSPACE_SAMPLE_POSITIONS
+`define HALFSPACE_SAMPLE_POSITIONS (PixelSamples == 2 ? 128'h44cc : \
+  PixelSamples == 4 ? 128'hae2ae662 : \
+  PixelSamples == 8 ? 128'hf1bf173d53d97b95 : \
+  PixelSamples == 16 ? 128'h10eff4082c42816eb3dbad36c75a7599 : \
+  128'h88)
 `endif
 `ifndef HALFSPACE_BLOCK_SIZE
 `define HALFSPACE_BLOCK_SIZE 32
@@ -32,6 +44,8 @@
 package raster_pkg;
 
   parameter int unsigned SubPixelBits = `HALFSPACE_SUB_PIXEL_BITS;
+  parameter int unsigned PixelSamples = `HALFSPACE_SAMPLES;
+  parameter logic [127:0] SamplePositions = `HALFSPACE_SAMPLE_POSITIONS;
   parameter int unsigned BlockSize = `HALFSPACE_BLOCK_SIZE;
   parameter int unsigned TileSize = `HALFSPACE_TILE_SIZE;
   parameter int unsigned QuadWidth = `HALFSPACE_QUAD_WIDTH;
@@ -52,6 +66,11 @@ package raster_pkg;
   parameter int unsigned TileLog2 = (TileSize == 4 ? 2 : TileSize == 8 ? 3 : 4);
   // coordinate of a tile on the screen
   parameter int unsigned TileCoordBits = PixelBits - TileLog2;
+  // sample of a pixel
+  parameter int unsigned SampleLog2 = (PixelSamples == 1 ? 0 : PixelSamples == 2 ? 1 :
+      PixelSamples == 4 ? 2 : PixelSamples == 8 ? 3 : 4);
+  // column of a tile behind tile_walker, where the tiles of all samples lie side by side
+  parameter int unsigned TileColumnBits = TileCoordBits + SampleLog2;
   // tiles of a block: a mask, bit y * BlockSize / TileSize + x
   parameter int unsigned BlockTiles = BlockSize * BlockSize / (TileSize * TileSize);
   // pixel coordinate inside a block
@@ -169,7 +188,7 @@ package raster_pkg;
     logic [FuncBits-1:0] func;
     logic [CodeBits-1:0] clear_code;
     logic [LineBits-1:0] first_tile;
-    logic [TileCoordBits-1:0] tiles_x;
+    logic [TileColumnBits-1:0] tiles_x;
     logic [LineBits-1:0] first_block;
     logic [BlockCoordBits-1:0] blocks_x;
   } draw_state_t;
@@ -233,7 +252,7 @@ package raster_pkg;
   // tile_walker -> edge_evaluator
   typedef struct packed {
     logic [SlotBits-1:0] slot;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [2:0] e;
     step_t [2:0] a;
@@ -249,7 +268,7 @@ package raster_pkg;
   // edge_evaluator -> quad_generator
   typedef struct packed {
     logic [SlotBits-1:0] slot;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     logic [FlagBits-1:0] sure;
     edge_t [1:0] e;
@@ -259,7 +278,7 @@ package raster_pkg;
   // quad_generator -> early_z: a beat of a burst
   typedef struct packed {
     logic [SlotBits-1:0] slot;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0] e;
     logic [FlagBits-1:0] last;
@@ -279,7 +298,7 @@ package raster_pkg;
   // early_z -> fragment shader: a beat of a burst
   typedef struct packed {
     logic [SlotBits-1:0] slot;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     logic [FlagBits-1:0] last;
     logic [TestWidth-1:0] [QuadIndexBits-1:0] index;
@@ -394,6 +413,8 @@ package raster_pkg;
 endpackage : raster_pkg
 
 `undef HALFSPACE_SUB_PIXEL_BITS
+`undef HALFSPACE_SAMPLES
+`undef HALFSPACE_SAMPLE_POSITIONS
 `undef HALFSPACE_BLOCK_SIZE
 `undef HALFSPACE_TILE_SIZE
 `undef HALFSPACE_QUAD_WIDTH

@@ -17,3 +17,6 @@ foreach(configuration "1;0;8;1" "1;1;8;0" "1;128;8;1" "2;1;8;1" "2;8;4;0")
   halfspace_lint(c${conservative}_u${uncertainty}_s${sub_pixel_bits}_z${interpolator} -GConservative=${conservative}
                  -GUncertainty=${uncertainty} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -GInterpolator=${interpolator})
 endforeach()
+foreach(samples 2 4 8 16)
+  halfspace_lint(samples${samples} -DHALFSPACE_SAMPLES=${samples})
+endforeach()

@@ -1,4 +1,6 @@
 raster_pkg.sv
+sample_pkg.sv
+sample_box_pkg.sv
 depth_pkg.sv
 square_pkg.sv
 setup_pkg.sv

@@ -9,6 +9,8 @@
 
 module setup_cull
   import raster_pkg::*;
+  import sample_pkg::*;
+  import sample_box_pkg::*;
   import setup_pkg::*;
   import square_pkg::*;
 #(
@@ -149,6 +151,7 @@ module setup_cull
   // bounds, with a range beyond the screen.
   localparam int unsigned ReachBits = StepBits - SubPixelBits;
   localparam step_t Half = step_t'(1) <<< (SubPixelBits - 1);
+  localparam step_t LastOfPixel = (step_t'(1) <<< SubPixelBits) - step_t'(1);
 
   typedef logic signed [ReachBits-1:0] reach_t;
 
@@ -168,19 +171,22 @@ module setup_cull
   localparam step_t Square = Conservative == Outer   ? Half + step_t'(Uncertainty)
                              : Conservative == Inner ? -Half - step_t'(Uncertainty) : '0;
 
-  // The centre of pixel p is at p 2^SubPixelBits + Half: the first pixel rounds up, the last rounds down.
-  function automatic reach_t first_pixel(coord_t min, logic by_square,
+  // The samples of pixel p are at p 2^SubPixelBits + least to p 2^SubPixelBits + most: the first pixel rounds up, the
+  // last rounds down. Of one sample at the centre both are half a pixel. Squares are about the centre.
+  function automatic reach_t first_pixel(coord_t min, grid_t most_sample, logic by_square,
                                          logic [PixelBits-1:0] limit);
     step_t  moved = step_t'(min)
-                    + (by_square ? Half - step_t'(1) - Square : Half - step_t'(1));
+                    + (by_square ? Half - step_t'(1) - Square
+                                 : LastOfPixel - step_t'({1'b0, sub_pixels(most_sample)}));
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel > bound ? pixel : bound;
   endfunction
 
-  function automatic reach_t last_pixel(coord_t max, logic by_square,
+  function automatic reach_t last_pixel(coord_t max, grid_t least_sample, logic by_square,
                                         logic [PixelBits-1:0] limit);
-    step_t  moved = step_t'(max) + (by_square ? Square - Half : -Half);
+    step_t  moved = step_t'(max)
+                    + (by_square ? Square - Half : -step_t'({1'b0, sub_pixels(least_sample)}));
     reach_t pixel = reach_t'(moved >>> SubPixelBits);
     reach_t bound = reach_t'({1'b0, limit});
     return pixel < bound ? pixel : bound;
@@ -196,19 +202,19 @@ module setup_cull
         first:    product_q.first,
         area:     product_q.plus - product_q.minus,
         negated:  product_q.minus - product_q.plus,
-        x_first:  first_pixel(product_q.x_min, product_q.triangle.by_square,
+        x_first:  first_pixel(product_q.x_min, MostX, product_q.triangle.by_square,
                               product_q.state.x_first),
-        x_last:   last_pixel(product_q.x_max, product_q.triangle.by_square,
+        x_last:   last_pixel(product_q.x_max, LeastX, product_q.triangle.by_square,
                              product_q.state.x_last),
-        y_first:  first_pixel(product_q.y_min, product_q.triangle.by_square,
+        y_first:  first_pixel(product_q.y_min, MostY, product_q.triangle.by_square,
                               product_q.state.y_first),
-        y_last:   last_pixel(product_q.y_max, product_q.triangle.by_square,
+        y_last:   last_pixel(product_q.y_max, LeastY, product_q.triangle.by_square,
                              product_q.state.y_last)
       };
     end
   end
 
-  // The verdict. A bounding box without a pixel centre has no pixel in common with the screen either.
+  // The verdict. A bounding box without a sample has no pixel in common with the screen either.
   logic negative, flat, flat_drawn, front, culled, no_pixel;
   assign negative   = sized_q.area[AreaBits];
   assign flat       = sized_q.area == '0;

@@ -9,7 +9,7 @@ package setup_pkg;
 
   typedef logic [AreaBits-1:0] area_t;
 
-  // Pixels whose centres the bounding box, the scissor and the target all hold; both ends belong to them.
+  // Pixels of which the bounding box may hold a sample, and that the scissor and the target hold; both ends belong to them.
   typedef struct packed {
     logic [PixelBits-1:0] x_first;
     logic [PixelBits-1:0] x_last;

@@ -3,9 +3,13 @@
 // E is the same modulo 2^SubPixelBits at all pixel centres, so what moves is floor(E / 2^SubPixelBits), which a pixel
 // changes by a or b. An edge function is linear: over the samples of a tile it is least at a corner, and the signs of a
 // and b say at which. So the test for the accept bit is one adder, of which only the sign is used.
+//
+// Where samples are not at the centres, E also moves to the sample of the job: from there it is again the same modulo
+// 2^SubPixelBits at that sample of all pixels.
 
 module tile_edge
   import raster_pkg::*;
+  import sample_pkg::*;
 #(
   /// 0: no tile is found to be inside.
   parameter bit TrivialAccept = 1'b1,
@@ -14,11 +18,12 @@ module tile_edge
 ) (
   input  logic               clk_i,
 
-  // First register: the edge at the block's top left sample.
+  // First register: the edge at the centre of the block's top left pixel, and which sample.
   input  logic               picked_valid_i,
   input  edge_t              edge_i,
   input  step_t              a_i,
   input  step_t              b_i,
+  input  sample_t            sample_i,
 
   // Second register: which tile of the block.
   input  logic               placed_valid_i,
@@ -47,7 +52,9 @@ module tile_edge
     step_t                   b;
   } edge_at_t;
 
-  edge_at_t block_q, tile_q;
+  edge_at_t                        block_q, tile_q;
+  logic signed [PixelEdgeBits-1:0] at_tile; // at the centre
+  edge_t                           at_sample;
 
   always_ff @(posedge clk_i) begin
     if (picked_valid_i) begin
@@ -69,13 +76,32 @@ module tile_edge
     return (least_t'(falling) <<< TileLog2) - least_t'(falling);
   endfunction
 
+  assign at_tile = block_q.e + across(block_q.a, tile_x_i) + across(block_q.b, tile_y_i);
+
+  if (AtCentre) begin : gen_centre
+    assign at_sample = {at_tile, block_q.sub_pixel};
+
+    logic unused_sample;
+    assign unused_sample = ^sample_i;
+  end else begin : gen_samples
+    to_sample_t to_sample_q;
+    always_ff @(posedge clk_i) begin
+      if (picked_valid_i) begin
+        to_sample_q <= sixteenths(a_i, from_centre(position(32'(sample_i), 1'b0)))
+                       + sixteenths(b_i, from_centre(position(32'(sample_i), 1'b1)));
+      end
+    end
+    assign at_sample = edge_t'({at_tile, block_q.sub_pixel})
+                       + (edge_t'(to_sample_q) <<< (SubPixelBits - SampleGridLog2));
+  end
+
   least_t least_q;
 
   always_ff @(posedge clk_i) begin
     if (placed_valid_i) begin
       tile_q  <= '{
-        e:         block_q.e + across(block_q.a, tile_x_i) + across(block_q.b, tile_y_i),
-        sub_pixel: block_q.sub_pixel,
+        e:         at_sample[EdgeBits-1:SubPixelBits],
+        sub_pixel: at_sample[SubPixelBits-1:0],
         a:         block_q.a,
         b:         block_q.b
       };

@@ -1,4 +1,5 @@
 raster_pkg.sv
+sample_pkg.sv
 walk_pkg.sv
 credits.sv
 memory_fifo.sv

@@ -1,4 +1,5 @@
-// From a block to its tiles: one tile job a cycle, in row order or another.
+// From a block to its tiles: one tile job a cycle, in row order or another. With several samples a pixel a tile leaves
+// once for each, in their order, before the next.
 //
 // The block stays at the head of block_walker's FIFO until its last tile is made; here is only a register of the tiles
 // that are left. A job takes three cycles: the tile is picked; the edges move to it; the test for accept bits, and the
@@ -6,6 +7,7 @@
 
 module tile_walker
   import raster_pkg::*;
+  import sample_pkg::*;
 #(
   /// Slots of the output FIFO, 2 or more, each as wide as tile_job_t. With 2 or 3 jobs cannot leave in every cycle.
   parameter int unsigned FifoDepth = 16,
@@ -57,9 +59,29 @@ module tile_walker
     .rest_o (rest)
   );
 
+  // Which sample of the picked tile.
+  sample_t sample;
+  logic    last_sample;
+
+  if (PixelSamples == 1) begin : gen_one_sample
+    assign sample      = '0;
+    assign last_sample = 1'b1;
+  end else begin : gen_samples
+    sample_t sample_q;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) begin
+        sample_q <= '0;
+      end else if (emit) begin
+        sample_q <= sample_q + sample_t'(1);
+      end
+    end
+    assign sample      = sample_q;
+    assign last_sample = &sample_q;
+  end
+
   assign emit  = block_valid_i & credit;
 
-  assign block_ready_o = credit & (rest == '0);
+  assign block_ready_o = credit & (rest == '0) & last_sample;
 
   // Only hi_z looks at depth.
   logic unused_plane;
@@ -68,7 +90,7 @@ module tile_walker
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       left_q <= '1;
-    end else if (emit) begin
+    end else if (emit && last_sample) begin
       left_q <= rest == '0 ? '1 : rest;
     end
   end
@@ -103,6 +125,7 @@ module tile_walker
     logic [BlockLog2-1:0]      y_last;
     place_t                    tile_x;
     place_t                    tile_y;
+    sample_t                   sample;
   } picked_t;
 
   picked_t picked_d, picked;
@@ -118,7 +141,8 @@ module tile_walker
     y_first: block_i.y_first,
     y_last:  block_i.y_last,
     tile_x:  tile_x_d,
-    tile_y:  tile_y_d
+    tile_y:  tile_y_d,
+    sample:  sample
   };
 
   pipe_register #(
@@ -132,11 +156,20 @@ module tile_walker
     .data_o  (picked)
   );
 
+  // The tiles of all samples lie side by side.
+  typedef logic [TileColumnBits-1:0] tile_column_t;
+
+  function automatic tile_column_t tile_column(logic [BlockCoordBits-1:0] block_x, place_t tile_x,
+                                               sample_t number);
+    tile_column_t first = tile_column_t'({block_x, tile_x}) << SampleLog2;
+    return first | tile_column_t'(number);
+  endfunction
+
   // Second register. The bounds cut a tile only where they begin or end.
   typedef struct packed {
     logic [SlotBits-1:0]      slot;
     logic                     sure;
-    logic [TileCoordBits-1:0] tile_x;
+    tile_column_t             tile_x;
     logic [TileCoordBits-1:0] tile_y;
     logic [TileLog2-1:0]      x_first;
     logic [TileLog2-1:0]      x_last;
@@ -162,7 +195,7 @@ module tile_walker
   assign placed_d = '{
     slot:    picked.slot,
     sure:    picked.sure,
-    tile_x:  {picked.block_x, picked.tile_x},
+    tile_x:  tile_column(picked.block_x, picked.tile_x, picked.sample),
     tile_y:  {picked.block_y, picked.tile_y},
     x_first: picked.tile_x == x_first.tile ? x_first.pixel : '0,
     x_last:  picked.tile_x == x_last.tile ? x_last.pixel : '1,
@@ -192,6 +225,7 @@ module tile_walker
       .edge_i         (block_i.e[i]),
       .a_i            (block_i.a[i]),
       .b_i            (block_i.b[i]),
+      .sample_i       (sample),
       .placed_valid_i (picked_valid),
       .tile_x_i       (picked.tile_x),
       .tile_y_i       (picked.tile_y),

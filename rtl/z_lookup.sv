@@ -35,7 +35,7 @@ module z_lookup
   // Bursts. The state of the draw comes a cycle after state_read_o.
   input  logic                                   beat_valid_i,
   output logic                                   beat_ready_o,
-  input  logic [TileCoordBits-1:0]               tile_x_i,
+  input  logic [TileColumnBits-1:0]              tile_x_i,
   input  logic [TileCoordBits-1:0]               tile_y_i,
   input  logic                                   last_i,
   input  logic [ZParts-1:0]                      parts_i,
@@ -46,7 +46,7 @@ module z_lookup
   input  logic                                   touches_i,
   input  logic                                   half_i,
   input  logic [TileBits-1:0]                    first_tile_i,
-  input  logic [TileCoordBits-1:0]               tiles_x_i, // less 1
+  input  logic [TileColumnBits-1:0]              tiles_x_i, // less 1
 
   // What is known of a burst in the cycle after its first beat.
   output logic                                   found_o,
@@ -129,7 +129,8 @@ module z_lookup
   logic    credit, all_free;
   logic    take_first;
 
-  logic [TileCoordBits-1:0] tile_x_q, tile_y_q;
+  logic [TileColumnBits-1:0] tile_x_q;
+  logic [TileCoordBits-1:0]  tile_y_q;
   logic [ZParts-1:0]        parts_q, sure_q;
 
   assign take_first   = beat_valid_i & beat_ready_o & ~middle_q;

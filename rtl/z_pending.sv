@@ -25,7 +25,7 @@ module z_pending
   output logic                                     last_o,
   output logic [BurstBits-1:0]                     burst_o,
   output logic [SlotBits-1:0]                      slot_o,
-  output logic [TileCoordBits-1:0]                 tile_x_o,
+  output logic [TileColumnBits-1:0]                tile_x_o,
   output logic [TileCoordBits-1:0]                 tile_y_o,
   output edge_t [1:0]                              e_o,
   output logic [TestWidth-1:0] [QuadIndexBits-1:0] index_o,
@@ -44,7 +44,7 @@ module z_pending
 
   typedef struct packed {
     logic [SlotBits-1:0]      slot;
-    logic [TileCoordBits-1:0] tile_x;
+    logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;
     edge_t [1:0]              e;
   } head_t;

@@ -64,7 +64,7 @@ GROUPS = {
     # The modules that other units have too are mutated there: these have only a part of what credit_fifo can be.
     "block_walker": Group(
         "block_walker",
-        ["t8_b32", "t8_b32_all", "t4_b32", "t16_b32_noreject"],
+        ["t8_b32", "t8_b32_all", "t4_b32", "t16_b32_noreject", "t8_b32_samples4"],
         ["--tiles", "40000"],
         ["block_walker", "block_position", "block_inside", "block_edge", "block_plane"],
     ),
@@ -77,10 +77,12 @@ GROUPS = {
     ),
     "tile_walker": Group(
         "tile_walker",
-        ["t8_b32", "t4_b32", "t16_b32_noaccept"],
+        ["t8_b32", "t4_b32", "t16_b32_noaccept", "t8_b32_samples4"],
         ["--tiles", "40000"],
         ["tile_walker", "tile_edge"],
     ),
+    "samples": Group("tile_walker", ["t8_b32_samples4", "t8_b32"], ["--tiles", "20000"], ["sample_pkg"]),
+    "sample_box": Group("setup", ["samples4_t8_s8", "t8_s8"], ["--tiles", "12000"], ["sample_box_pkg"]),
     "hi_z": Group(
         "hi_z",
         ["lag8", "lag1", "parts"],
@@ -91,7 +93,7 @@ GROUPS = {
     "quad_generator": Group("quad_generator", ["t8_w4_p1", "t4_w4_p2"], ["--tiles", "20000"]),
     "edge_evaluator": Group("edge_evaluator", ["t8_s8", "t8_s6_p1", "t4_s6_p3"], ["--tiles", "20000"]),
     "early_z": Group("early_z", ["t4", "parts", "outer"], ["--bursts", "32000"]),
-    "depth_plane": Group("early_z", ["plane", "t4"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
+    "depth_plane": Group("early_z", ["plane", "t4", "samples2"], ["--bursts", "32000"], ["depth_plane", "plane_sample"]),
     "z_late": Group("early_z", ["late2", "late16", "t4", "late_least"], ["--bursts", "32000"], ["z_late_writes"]),
     "interpolator": Group(
         "interpolator",
@@ -107,6 +109,8 @@ GROUPS = {
     ),
     "raster_pipeline": Group("raster_pipeline", ["small_no_dfg"], ["--triangles", "20000"]),
 }
+# Of several units. Only the groups that name them mutate them: each bench sees a part.
+SHARED = {"sample_pkg", "sample_box_pkg"}
 SURVIVED = "**survived**"
 HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
 
@@ -157,7 +161,7 @@ def mutants_for(bench, options):
     """The group's: the pipeline's are its own modules, and of the units what their benches miss."""
     own = {"raster_pipeline", "cycle_counters"}
     files = options.file or GROUPS[options.group].files
-    of_others = {
+    of_others = SHARED | {
         name
         for key, group in GROUPS.items()
         if group.unit == bench.unit and key != options.group

@@ -64,8 +64,9 @@ def _edge_evaluator() -> Unit:
 
 
 def _walker(name, switch) -> Unit:
-    def of(tile, block, sub_pixel=8, measured=True, multipliers=0, **parameters):
+    def of(tile, block, sub_pixel=8, measured=True, multipliers=0, samples=1, **parameters):
         defines = {"TILE_SIZE": tile, "BLOCK_SIZE": block, "SUB_PIXEL_BITS": sub_pixel}
+        defines |= {"SAMPLES": samples} if samples != 1 else {}
         return Configuration(name, defines, parameters, multipliers, measured=measured)
 
     def walk(levels, order, measured=True, **parameters):
@@ -99,6 +100,7 @@ def _walker(name, switch) -> Unit:
                 if name == "block_walker"
                 else tuple(of(8, 32, Order=order) for order in (1, 2, 3))
             ),
+            *(of(8, 32, samples=samples) for samples in (2, 4, 8, 16)),
             of(8, 32, 4, False),
             of(4, 8, 5, False, FifoDepth=2),
             of(16, 64, 6, False, FifoDepth=8),
@@ -156,13 +158,13 @@ SETUP_MULTIPLIERS = {
 
 
 def _setup() -> Unit:
-    def of(sub_pixel, interval, interpolator, measured=True, **parameters):
+    def of(sub_pixel, interval, interpolator, measured=True, samples=1, **parameters):
         # setup_hi_z has two, line_edges one.
         hi_z = 2 if "HiZ" in parameters and interpolator == PLANE else 0
         lines = 1 if "ThinLines" in parameters else 0
         return Configuration(
             "setup",
-            {"SUB_PIXEL_BITS": sub_pixel},
+            {"SUB_PIXEL_BITS": sub_pixel} | ({"SAMPLES": samples} if samples != 1 else {}),
             {"Interval": interval, "Interpolator": interpolator, **parameters},
             multipliers=SETUP_MULTIPLIERS[interpolator] + hi_z + lines,
             measured=measured,
@@ -184,6 +186,7 @@ def _setup() -> Unit:
             Configuration("line_columns", {"SUB_PIXEL_BITS": 8}),
             Configuration("line_edges", {"SUB_PIXEL_BITS": 8}, multipliers=5),
             Configuration("setup_edges", {"SUB_PIXEL_BITS": 8}, multipliers=4),
+            *(of(8, 1, BARYCENTRIC, samples=samples) for samples in (4, 16)),
             of(4, 1, BARYCENTRIC, False),
             of(5, 1, BARYCENTRIC, False, ThinLines="1'b1"),
             of(4, 1, PLANE, False),
@@ -249,6 +252,10 @@ def _early_z_parts() -> Unit:
             Configuration("barycentric_sample", {}, {"Conservative": 1}, SAMPLE_MULTIPLIERS),
             Configuration("plane_sample"),
             *(Configuration("depth_plane", {}, {"Quads": quads}, TILE_MULTIPLIERS) for quads in (1, 4)),
+            *(
+                Configuration("depth_plane", {"SAMPLES": samples}, {"Quads": 1}, TILE_MULTIPLIERS)
+                for samples in (4, 16)
+            ),
             *(Configuration("z_lookup", {}, {"Lines": lines}, 1) for lines in (32, 128, 512)),
             *(Configuration("z_test", {"TEST_WIDTH": width}) for width in (1, 4)),
             Configuration("z_test", {"TEST_WIDTH": 1}, {"Lines": 32}),

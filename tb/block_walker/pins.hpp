@@ -42,9 +42,10 @@ struct BlockWalkerPins {
 
 template <class Model>
 BlockWalkerModel verilated(const std::string& name, int tile_size, int block_size, int sub_pixel_bits,
-                           int fifo_depth, bool reject, bool samples, bool hi_z, int levels, int order) {
+                           int fifo_depth, bool reject, bool samples, bool hi_z, int levels, int order,
+                           int pixel_samples) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, BlockWalkerPins>},
-          {{tile_size, block_size, sub_pixel_bits},
+          {{tile_size, block_size, sub_pixel_bits, pixel_samples},
            fifo_depth,
            reject,
            samples,

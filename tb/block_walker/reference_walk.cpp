@@ -91,22 +91,35 @@ class StepSink {
     return tiles;
   }
 
-  /// Edge i, at the four corner samples of every tile.
+  /// Edge i, at the four corner samples of every tile; where a pixel has several, at the corners of their
+  /// box.
   void test(std::size_t i, BlockStep& step) const {
     const WalkSizes& sizes = parameters_.sizes;
     const int row_tiles = sizes.row_tiles();
-    const auto at = [&](std::int64_t x, std::int64_t y) {
-      return step.job.e[i] + ((step.job.a[i] * x + step.job.b[i] * y) << sizes.sub_pixel_bits);
+    const SamplePattern samples = sizes.pattern();
+    const auto [x_least, x_most] = std::ranges::minmax(samples.positions(), {}, &SamplePosition::x);
+    const auto [y_least, y_most] = std::ranges::minmax(samples.positions(), {}, &SamplePosition::y);
+    const std::int64_t one = std::int64_t{1} << sizes.sub_pixel_bits;
+    // At a place of a pixel, in sixteenths; E of the job is at its centre.
+    const auto at_place = [&](std::int64_t x, std::int64_t y, int in_x, int in_y) {
+      return step.job.e[i] + step.job.a[i] * (x * one + (in_x - 8) * one / 16) +
+             step.job.b[i] * (y * one + (in_y - 8) * one / 16);
+    };
+    const auto at = [&, left = x_least.x, right = x_most.x, top = y_least.y, bottom = y_most.y](
+                        std::int64_t x, std::int64_t y) {
+      return std::minmax({at_place(x, y, left, top), at_place(x, y, right, top), at_place(x, y, left, bottom),
+                          at_place(x, y, right, bottom)});
     };
     const std::int64_t across = sizes.tile_size - 1;
     for (std::uint64_t left = step.touched; left != 0; left &= left - 1) {
       const int tile = std::countr_zero(left);
       const std::int64_t x = tile % row_tiles * sizes.tile_size;
       const std::int64_t y = tile / row_tiles * sizes.tile_size;
-      const auto [least, largest] =
-          std::minmax({at(x, y), at(x + across, y), at(x, y + across), at(x + across, y + across)});
-      step.outside[i] |= std::uint64_t{largest < 0} << tile;
-      step.inside[i] |= std::uint64_t{least >= 0} << tile;
+      const std::array corners{at(x, y), at(x + across, y), at(x, y + across), at(x + across, y + across)};
+      const auto is_outside = [](const auto& corner) { return corner.second < 0; };
+      const auto is_inside = [](const auto& corner) { return corner.first >= 0; };
+      step.outside[i] |= std::uint64_t{std::ranges::all_of(corners, is_outside)} << tile;
+      step.inside[i] |= std::uint64_t{std::ranges::all_of(corners, is_inside)} << tile;
     }
   }
 

@@ -29,7 +29,8 @@ struct BlockWalkerParameters {
             .trivial_reject = trivial_reject,
             .sample_reject = sample_reject,
             .levels = levels,
-            .order = order};
+            .order = order,
+            .samples = sizes.pattern()};
   }
 };
 
@@ -38,7 +39,7 @@ struct BlockWalkerParameters {
 struct BlockStep {
   BlockJob job;                            ///< leaves, if it has a tile
   std::uint64_t touched = 0;               ///< by the bounds
-  std::array<std::uint64_t, 3> outside{};  ///< of those: all samples outside the edge
+  std::array<std::uint64_t, 3> outside{};  ///< of those: the boxes of all samples outside the edge
   std::array<std::uint64_t, 3> inside{};   ///< all inside
   bool few_samples = false;                ///< these are tested, not tiles
   bool wide = false;                       ///< the bounds have more than one column of blocks
@@ -57,7 +58,8 @@ struct InputWords {
 };
 
 /// The walk of a triangle packet, by model/halfspace/units/block_walker.hpp. The sets of tiles are made from
-/// all corner samples of each, or from all samples of few, and must agree with its masks.
+/// the corners of all boxes of samples at the corners of each, or from all samples of few, and must agree
+/// with its masks.
 [[nodiscard]] std::vector<BlockStep> reference_walk(std::span<const std::uint32_t> triangle,
                                                     std::uint8_t slot,
                                                     const BlockWalkerParameters& parameters);

@@ -35,7 +35,10 @@ std::optional<SetupTriangle> set_up(const Points& v, const PixelRect& bounds, Fi
     triangle.v[i] = {.x = static_cast<std::int32_t>(std::clamp(v[i].x, -limit, limit - 1)),
                      .y = static_cast<std::int32_t>(std::clamp(v[i].y, -limit, limit - 1))};
   }
-  const SetupState state{.sub_pixel_bits = sizes.sub_pixel_bits, .fill_rule = rule, .bounds = bounds};
+  const SetupState state{.sub_pixel_bits = sizes.sub_pixel_bits,
+                         .fill_rule = rule,
+                         .bounds = bounds,
+                         .samples = sizes.pattern().box()};
   SetupTriangle out;
   return setup(triangle, state, out) == SetupVerdict::kDrawn ? std::optional(out) : std::nullopt;
 }
@@ -137,6 +140,15 @@ Points sliver(Point from, std::int64_t length, std::int64_t one, Random& random)
   return {{from, to, {(from.x + to.x) / 2 + random.range(-2, 2), (from.y + to.y) / 2 + random.range(-2, 2)}}};
 }
 
+/// Of a sample in its pixel, in sub-pixels.
+Point sample_in_pixel(const WalkSizes& sizes, Random& random) {
+  const SamplePattern samples = sizes.pattern();
+  const std::uint64_t which =
+      samples.count == 1 ? 0 : random.below(static_cast<std::uint64_t>(samples.count));
+  const SamplePosition& at = samples.at[which];
+  return {sample_way(at.x, sizes.sub_pixel_bits), sample_way(at.y, sizes.sub_pixel_bits)};
+}
+
 /// Vertices of one of the kinds that matter.
 Points random_points(const WalkSizes& sizes, Random& random) {
   const std::int64_t one = std::int64_t{1} << sizes.sub_pixel_bits;
@@ -172,19 +184,21 @@ Points random_points(const WalkSizes& sizes, Random& random) {
       return all_around(centre, 3 * block);
     case 5:
       return sliver(centre, 4 * sizes.tile_size, one, random);
-    case 6: {  // vertices on pixel centres at the edges of tiles: edges along the samples of their borders
+    case 6: {  // vertices on samples at the edges of tiles: edges along the samples of their borders
+      const Point sample = sample_in_pixel(sizes, random);
       Points v;
       const std::int64_t x = centre.x / block * block;
       const std::int64_t y = centre.y / block * block;
       for (Point& p : v) {
-        p = {x + random.range(-4, 4) * tile + random.range(-1, 1) * one + one / 2,
-             y + random.range(-4, 4) * tile + random.range(-1, 1) * one + one / 2};
+        p = {x + random.range(-4, 4) * tile + random.range(-1, 1) * one + sample.x,
+             y + random.range(-4, 4) * tile + random.range(-1, 1) * one + sample.y};
       }
       return v;
     }
     case 7: {  // a right angle there
-      const std::int64_t x = centre.x / tile * tile + random.range(-1, 0) * one + one / 2;
-      const std::int64_t y = centre.y / tile * tile + random.range(-1, 0) * one + one / 2;
+      const Point sample = sample_in_pixel(sizes, random);
+      const std::int64_t x = centre.x / tile * tile + random.range(-1, 0) * one + sample.x;
+      const std::int64_t y = centre.y / tile * tile + random.range(-1, 0) * one + sample.y;
       return {{{x, y},
                {x + random.range(-4, 4) * tile + random.range(0, 2) * one, y},
                {x, y + random.range(-4, 4) * tile + random.range(0, 2) * one}}};
@@ -348,6 +362,7 @@ std::vector<SetupTriangle> frame_triangles(const std::string& file, const WalkSi
   const Frame frame = load(file);
   Config config;
   config.raster.sub_pixel_bits = sizes.sub_pixel_bits;
+  config.raster.samples = sizes.samples;
   std::vector<SetupTriangle> triangles;
   std::vector<ScreenTriangle> batch;
   FrontEndCounters counters;

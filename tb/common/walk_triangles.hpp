@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/numerics/widths.hpp"
 #include "halfspace/units/packets.hpp"
 #include "random.hpp"
@@ -16,10 +17,15 @@ struct WalkSizes {
   int tile_size = 8;
   int block_size = 32;
   int sub_pixel_bits = 8;
+  int samples = 1;  ///< of a pixel, at the standard positions
 
   [[nodiscard]] Widths widths() const {
-    return Widths{.SubPixelBits = sub_pixel_bits, .BlockSize = block_size, .TileSize = tile_size};
+    return Widths{.SubPixelBits = sub_pixel_bits,
+                  .PixelSamples = samples,
+                  .BlockSize = block_size,
+                  .TileSize = tile_size};
   }
+  [[nodiscard]] SamplePattern pattern() const { return standard_samples(samples); }
   [[nodiscard]] int row_tiles() const { return block_size / tile_size; }
 };
 
@@ -27,7 +33,7 @@ struct WalkSizes {
 /// and of the screen, edges along rows and columns of samples, triangles that cover nothing, the guard band.
 [[nodiscard]] std::vector<SetupTriangle> directed_triangles(const WalkSizes& sizes);
 
-/// One triangle of a random kind: of a pixel, of a tile, of blocks, slivers, on pixel centres, at the guard
+/// One triangle of a random kind: of a pixel, of a tile, of blocks, slivers, on samples, at the guard
 /// band, large, at the edges of the screen; some of them cut by a scissor.
 [[nodiscard]] SetupTriangle random_triangle(const WalkSizes& sizes, Random& random);
 

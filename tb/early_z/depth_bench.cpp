@@ -70,6 +70,7 @@ class DepthBench {
     const EarlyZState state{.format = format,
                             .interpolator = interpolator_,
                             .sub_pixel_bits = widths_.SubPixelBits,
+                            .samples = standard_samples(widths_.PixelSamples),
                             .square_reach = squares.reach(widths_)};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
     pack(to_packet(triangle, format, interpolator_), widths_, words);
@@ -130,7 +131,7 @@ class DepthBench {
     }
   }
 
-  Widths widths_{.SubPixelBits = HALFSPACE_SUB_PIXEL_BITS};
+  Widths widths_{.SubPixelBits = HALFSPACE_SUB_PIXEL_BITS, .PixelSamples = HALFSPACE_SAMPLES};
   DepthInterpolator interpolator_ = static_cast<DepthInterpolator>(HALFSPACE_INTERPOLATOR);
   Random random_;
   bool fault_;

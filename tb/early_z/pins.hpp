@@ -71,9 +71,10 @@ EarlyZModel verilated(const std::string& name, int tile_size, int sub_pixel_bits
                       int test_width, int z_parts, int pending, int fifo, int lines, int ways, int misses,
                       int write_buffers, int read_bytes, int write_bytes, int clear_tiles, int memory_tiles,
                       int interpolator, int hi_z, int compression, int late_queue, int conservative,
-                      int uncertainty) {
+                      int uncertainty, int samples) {
   return {name,
           {{.SubPixelBits = sub_pixel_bits,
+            .PixelSamples = samples,
             .TileSize = tile_size,
             .QuadWidth = quad_width,
             .TestWidth = test_width,

@@ -6,6 +6,7 @@
 #include "halfspace/units/edge_evaluator.hpp"
 #include "halfspace/units/quad_generator.hpp"
 #include "halfspace/units/setup.hpp"
+#include "halfspace/units/square_edges.hpp"
 
 namespace halfspace::tb {
 namespace {
@@ -113,13 +114,18 @@ std::vector<QuadBurst> tile_bursts(const Widths& widths, const SetupTriangle& tr
     const int at = (first + i) % tiles;
     const int x = (bounds.x_first / TileSize + at % columns) * TileSize;
     const int y = (bounds.y_first / TileSize + at / columns) * TileSize;
-    TileJob job{.tile_x = static_cast<std::uint16_t>(x / TileSize),
+    // One of its samples.
+    const SamplePattern samples = standard_samples(widths.PixelSamples);
+    const std::uint64_t sample =
+        samples.count == 1 ? 0 : random.below(static_cast<std::uint64_t>(samples.count));
+    TileJob job{.tile_x = static_cast<std::uint16_t>(x / TileSize * samples.count + static_cast<int>(sample)),
                 .tile_y = static_cast<std::uint16_t>(y / TileSize)};
     for (std::size_t e = 0; e < 3; ++e) {
       const Edge& edge = triangle.edge[e];
       job.a[e] = edge.a;
       job.b[e] = edge.b;
-      job.e[e] = edge.c + ((std::int64_t{edge.a} * x + std::int64_t{edge.b} * y) << widths.SubPixelBits);
+      job.e[e] = edge.c + ((std::int64_t{edge.a} * x + std::int64_t{edge.b} * y) << widths.SubPixelBits) +
+                 to_sample(edge.a, edge.b, samples.at[sample], widths.SubPixelBits);
     }
     job.x_first = static_cast<std::uint8_t>(std::max(bounds.x_first - x, 0));
     job.x_last = static_cast<std::uint8_t>(std::min(bounds.x_last - x, TileSize - 1));
@@ -145,7 +151,8 @@ SetupTriangle random_triangle(const Widths& widths, DepthFormat format, DepthInt
                          .depth_format = format,
                          .limits = random_limits(format, random),
                          .interpolator = interpolator,
-                         .hi_z = true};
+                         .hi_z = widths.PixelSamples == 1,
+                         .samples = standard_samples(widths.PixelSamples).box()};
   SetupTriangle triangle;
   while (setup(random_screen_triangle(widths, format, width, height, random), state, triangle) !=
          SetupVerdict::kDrawn) {

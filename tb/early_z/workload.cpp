@@ -81,14 +81,15 @@ class Maker {
       Surface& surface = surfaces_[i];
       surface.format = kFormats[i];
       const std::uint32_t tiles = static_cast<std::uint32_t>(shape_.memory_tiles) / kSurfaces;
-      const auto columns = static_cast<std::uint32_t>(3 + 2 * i);
+      const auto places = static_cast<std::uint32_t>(3 + 2 * i);
+      const std::uint32_t columns = places * static_cast<std::uint32_t>(shape_.widths.PixelSamples);
       surface.place = {
           .first_tile = next,
           .tiles_x = columns,
           .tiles = tiles / columns * columns,
           .line_bytes = static_cast<std::uint32_t>(sample_bytes(surface.format) * tile_samples() / parts())};
       next += surface.place.tiles;
-      surface.width = static_cast<int>(columns) * shape_.widths.TileSize;
+      surface.width = static_cast<int>(places) * shape_.widths.TileSize;
       surface.height = static_cast<int>(surface.place.tiles / columns) * shape_.widths.TileSize;
       for (std::uint32_t n = surface.place.tiles * static_cast<std::uint32_t>(tile_samples()); n > 0; --n) {
         surface.codes.push_back(stored_code(surface.format, random_vertex_depth(surface.format)));
@@ -105,9 +106,8 @@ class Maker {
     return vertex_depth_code(format, static_cast<double>(random_.below(1u << 20)) / ((1u << 20) - 1));
   }
 
-  std::uint16_t random_tile() {
-    return static_cast<std::uint16_t>(random_.bits() >> (64 - shape_.widths.TileCoordBits));
-  }
+  std::uint16_t random_place(int bits) { return static_cast<std::uint16_t>(random_.bits() >> (64 - bits)); }
+  std::uint16_t random_column() { return random_place(shape_.widths.TileColumnBits); }
 
   [[nodiscard]] const Surface* surface_of(std::uint32_t line) const {
     const std::uint32_t tile = line / static_cast<std::uint32_t>(parts());
@@ -191,7 +191,8 @@ class Maker {
                       .func = static_cast<DepthFunc>(random_.below(8)),
                       .format = none ? DepthFormat::kNone : surface.format,
                       .interpolator = shape_.interpolator(),
-                      .sub_pixel_bits = shape_.widths.SubPixelBits};
+                      .sub_pixel_bits = shape_.widths.SubPixelBits,
+                      .samples = standard_samples(shape_.widths.PixelSamples)};
     if (shape_.late_queue != 0) {
       state.late = touches_depth(state) && state.write && random_.below(4) != 0;
       keep_share_ = random_.below(kWholeKeep + 1);
@@ -220,9 +221,9 @@ class Maker {
     // triangle is.
     std::optional<std::array<std::uint16_t, 2>> place;
     if (!touches_depth(state) && (none || state.interpolator == DepthInterpolator::kBarycentric)) {
-      place = {random_tile(), random_tile()};
+      place = {random_column(), random_place(shape_.widths.TileCoordBits)};
       packet.first_tile = static_cast<std::uint32_t>(random_.bits());
-      packet.tiles_x = random_tile();
+      packet.tiles_x = random_column();
     }
     const int height = local_ ? std::min(surface.height, 2 * shape_.widths.TileSize) : surface.height;
     for (std::uint64_t count = 1 + random_.below(kMostTriangles); count > 0 && left > 0; --count) {

@@ -70,7 +70,19 @@ void add_areas(std::vector<SetupJob>& jobs, const Band& band) {
   add({band.low, band.low}, {band.high, band.high}, {0, 0});
 }
 
-/// Boxes whose corners lie on, before and behind centres, at the borders of tiles, blocks and the scissor.
+/// Triangles of the box from p to q, moved by a sub-pixel to either side or not.
+void add_box(std::vector<SetupJob>& jobs, const DrawStatePacket& state, const Point& p, const Point& q) {
+  for (const std::int64_t nudge : {-1, 0, 1}) {
+    SetupJob job;
+    job.state = state;
+    set_vertices(job, {Point{p.x + nudge, p.y - nudge}, Point{q.x - nudge, p.y}, Point{q.x, q.y + nudge}});
+    jobs.push_back(job);
+    std::swap(job.triangle.x[1], job.triangle.x[2]);
+    jobs.push_back(job);
+  }
+}
+
+/// Boxes whose corners lie on, before and behind samples, at the borders of tiles, blocks and the scissor.
 void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel& model) {
   const std::array<std::int64_t, 7> pixels = {
       0, 1, model.dut.tile_size - 1, model.dut.tile_size, model.block_size - 1, model.block_size, kScreen};
@@ -83,16 +95,8 @@ void add_bounds(std::vector<SetupJob>& jobs, const Band& band, const SetupModel&
   for (const DrawStatePacket& state : {whole, cut, empty}) {
     for (const std::int64_t first : pixels) {
       for (const std::int64_t last : pixels) {
-        for (const std::int64_t nudge : {-1, 0, 1}) {
-          const Point p = band.centre(first, last);
-          const Point q = band.centre(last, first);
-          SetupJob job;
-          job.state = state;
-          set_vertices(job,
-                       {Point{p.x + nudge, p.y - nudge}, Point{q.x - nudge, p.y}, Point{q.x, q.y + nudge}});
-          jobs.push_back(job);
-          std::swap(job.triangle.x[1], job.triangle.x[2]);
-          jobs.push_back(job);
+        for (const SamplePosition& place : model.bounding_places()) {
+          add_box(jobs, state, band.in_pixel(first, last, place), band.in_pixel(last, first, place));
         }
       }
     }

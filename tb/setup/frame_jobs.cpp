@@ -12,6 +12,7 @@ namespace {
 void add_jobs(const Frame& frame, const SetupModel& model, std::vector<SetupJob>& jobs) {
   Config config;
   config.raster.sub_pixel_bits = model.dut.sub_pixel_bits;
+  config.raster.samples = model.samples;
   config.tile_walker.tile_size = model.dut.tile_size;
   config.block_walker.block_size = model.block_size;
   config.raster.conservative = model.conservative();

@@ -84,6 +84,7 @@ SetupResult reference(const SetupJob& job, const SetupModel& model) {
   SetupResult result;
   SetupState state = setup_state(job.state, model.dut.sub_pixel_bits, model.interpolator());
   state.hi_z = model.hi_z;
+  state.samples = model.pattern().box();
   if (job.triangle.by_square != 0) {
     state.conservative = model.conservative();
     state.square_reach = square_reach(state.conservative, model.uncertainty, model.dut.sub_pixel_bits);

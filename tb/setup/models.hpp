@@ -22,7 +22,16 @@ struct SetupModel {
   int conservative_number = 0;
   int uncertainty = 0;
   bool thin_lines = false;
+  int samples = 1;  ///< of a pixel, at the standard positions
 
+  [[nodiscard]] SamplePattern pattern() const { return standard_samples(samples); }
+  /// The places in a pixel that decide which pixels a box has: two corners of the box of the samples.
+  [[nodiscard]] std::vector<SamplePosition> bounding_places() const {
+    const SampleBox box = pattern().box();
+    const SamplePosition least{.x = box.x_least, .y = box.y_least};
+    const SamplePosition most{.x = box.x_most, .y = box.y_most};
+    return samples == 1 ? std::vector{least} : std::vector{least, most};
+  }
   [[nodiscard]] DepthInterpolator interpolator() const {
     return static_cast<DepthInterpolator>(interpolator_number);
   }
@@ -37,7 +46,10 @@ struct SetupModel {
     return latency(Link::kSetup, config);
   }
   [[nodiscard]] Widths widths() const {
-    return {.SubPixelBits = dut.sub_pixel_bits, .BlockSize = block_size, .TileSize = dut.tile_size};
+    return {.SubPixelBits = dut.sub_pixel_bits,
+            .PixelSamples = samples,
+            .BlockSize = block_size,
+            .TileSize = dut.tile_size};
   }
   [[nodiscard]] WalkerConfig walker() const {
     return {.sub_pixel_bits = dut.sub_pixel_bits, .block_size = block_size};

@@ -20,7 +20,7 @@ struct SetupPins {
 template <class Model>
 SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits, int block_size, int queue,
                      int fifo, int interval, int interpolator, int hi_z, int conservative, int uncertainty,
-                     int thin_lines) {
+                     int thin_lines, int samples) {
   return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, SetupPins>},
           queue,
           fifo,
@@ -30,7 +30,8 @@ SetupModel verilated(const std::string& name, int tile_size, int sub_pixel_bits,
           hi_z != 0,
           conservative,
           uncertainty,
-          thin_lines != 0};
+          thin_lines != 0,
+          samples};
 }
 
 }  // namespace halfspace::tb

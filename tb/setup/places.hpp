@@ -27,9 +27,10 @@ struct Band {
   [[nodiscard]] Point clamp(Point p) const {
     return {std::clamp(p.x, low, high), std::clamp(p.y, low, high)};
   }
-  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const {
-    return {x * one + one / 2, y * one + one / 2};
+  [[nodiscard]] Point in_pixel(std::int64_t x, std::int64_t y, const SamplePosition& at) const {
+    return {x * one + at.x * one / kSampleGrid, y * one + at.y * one / kSampleGrid};
   }
+  [[nodiscard]] Point centre(std::int64_t x, std::int64_t y) const { return in_pixel(x, y, {}); }
 
   std::int64_t one;  ///< a pixel
   std::int64_t low;

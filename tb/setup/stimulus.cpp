@@ -297,8 +297,7 @@ std::vector<SetupJob> timing_jobs(const SetupModel& model, const std::vector<boo
   const Band band(model.widths());
   std::vector<SetupJob> jobs;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    SetupJob job;
-    job.state = open_state(kFormats[i % 4]);
+    SetupJob job{.triangle = {}, .state = open_state(kFormats[i % 4])};
     number(job, i);
     const auto column = static_cast<std::int64_t>(i % 1000);
     set_vertices(job, {band.centre(column, 4), band.centre(column + 20, drawn[i] ? 9 : 4),

@@ -16,7 +16,8 @@ struct TileWalkerParameters {
     return {.sub_pixel_bits = sizes.sub_pixel_bits,
             .block_size = sizes.block_size,
             .trivial_accept = trivial_accept,
-            .tile_order = order};
+            .tile_order = order,
+            .samples = sizes.pattern()};
   }
 };
 

@@ -19,9 +19,10 @@ struct TileWalkerPins {
 
 template <class Model>
 TileWalkerModel verilated(const std::string& name, int tile_size, int block_size, int sub_pixel_bits,
-                          int fifo_depth, bool accept, int order) {
-  return {{name, tile_size, sub_pixel_bits, 0, make_dut<Model, TileWalkerPins>},
-          {{tile_size, block_size, sub_pixel_bits}, fifo_depth, accept, static_cast<TileOrder>(order)}};
+                          int fifo_depth, bool accept, int order, int samples) {
+  return {
+      {name, tile_size, sub_pixel_bits, 0, make_dut<Model, TileWalkerPins>},
+      {{tile_size, block_size, sub_pixel_bits, samples}, fifo_depth, accept, static_cast<TileOrder>(order)}};
 }
 
 }  // namespace halfspace::tb

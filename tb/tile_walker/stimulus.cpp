@@ -133,7 +133,8 @@ std::vector<BlockJob> block_jobs(std::span<const SetupTriangle> triangles, const
     }
     static void pass(const GridPlace& /*cell*/, int /*side*/) {}
   };
-  const WalkerConfig walker{.sub_pixel_bits = sizes.sub_pixel_bits, .block_size = sizes.block_size};
+  const WalkerConfig walker{
+      .sub_pixel_bits = sizes.sub_pixel_bits, .block_size = sizes.block_size, .samples = sizes.pattern()};
   Sink sink;
   for (const SetupTriangle& triangle : triangles) {
     with_tile_size(sizes.tile_size, [&](auto size) { block_walker<size()>(triangle, walker, 0, sink); });

@@ -12,6 +12,8 @@ namespace {
 constexpr std::array<const char*, 4> kSides = {"left", "right", "top", "bottom"};
 constexpr std::array<const char*, 2> kNoYes = {"", "not "};
 
+constexpr const char* kResetInTile = "reset between samples of a tile";
+
 const char* no(bool yes) { return kNoYes[yes ? 0 : 1]; }
 
 /// For which jobs of the block.
@@ -58,10 +60,19 @@ TileCoverage::TileCoverage(const TileWalkerParameters& parameters) : parameters_
   }
   for (const bool first : {false, true}) {
     for (const bool last : {false, true}) {
-      bins_.add(wait_name(first, last));
+      // A tile has a job for each of its samples, so with several no job is the first and the last.
+      if (!(first && last && parameters.sizes.samples > 1)) {
+        bins_.add(wait_name(first, last));
+      }
     }
   }
   bins_.add("reset in a wait");
+  if (parameters.sizes.samples > 1) {
+    for (int sample = 0; sample < parameters.sizes.samples; ++sample) {
+      samples_[static_cast<std::size_t>(sample)] = bins_.add(fmt::format("job of sample {}", sample));
+    }
+    bins_.add(kResetInTile);
+  }
 }
 
 void TileCoverage::block(const BlockJob& block, bool at_once) {
@@ -96,6 +107,7 @@ void TileCoverage::job(const TileJob& job, const std::array<std::size_t, 3>& dir
     count((job.accept >> i & 1) != 0 ? edge_accepts_[i][direction[i]] : edge_does_not_[i][direction[i]]);
   }
   count(accepts_[job.accept]);
+  count(samples_[job.tile_x % static_cast<std::size_t>(parameters_.sizes.samples)]);
   const int last = parameters_.sizes.tile_size - 1;
   count(cuts_[0][job.x_first == 0 ? 1 : 0]);
   count(cuts_[1][job.x_last == last ? 1 : 0]);
@@ -105,10 +117,13 @@ void TileCoverage::job(const TileJob& job, const std::array<std::size_t, 3>& dir
 
 void TileCoverage::waited(bool first, bool last) { bins_.hit(wait_name(first, last)); }
 
-void TileCoverage::reset(bool begun, bool waiting) {
+void TileCoverage::reset(bool begun, bool waiting, bool in_tile) {
   bins_.hit(fmt::format("reset, block {}begun", no(begun)));
   if (waiting) {
     bins_.hit("reset in a wait");
+  }
+  if (in_tile) {
+    bins_.hit(kResetInTile);
   }
 }
 

@@ -21,8 +21,9 @@ class TileCoverage {
   void block(const BlockJob& block, bool at_once);
   /// A job of a block has waited for a credit.
   void waited(bool first, bool last);
-  /// `begun`: a block had given some of its jobs; `waiting`: a job waited for a credit.
-  void reset(bool begun, bool waiting);
+  /// `begun`: a block had given some of its jobs; `waiting`: a job waited for a credit; `in_tile`: a tile had
+  /// given some of its samples.
+  void reset(bool begun, bool waiting, bool in_tile);
 
   [[nodiscard]] bool report() const { return bins_.report(); }
 
@@ -38,6 +39,7 @@ class TileCoverage {
   std::array<std::uint64_t*, 8> accepts_{};
   std::array<std::array<std::uint64_t*, 2>, 4> cuts_{};
   std::array<std::array<std::uint64_t*, 2>, 64> tiles_{};
+  std::array<std::uint64_t*, kMostSamples> samples_{};  ///< jobs of each sample of a pixel
 };
 
 }  // namespace halfspace::tb

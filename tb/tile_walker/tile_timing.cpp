@@ -16,7 +16,7 @@ constexpr std::uint64_t kJobLatency = 3;  // from the job to visible
 std::optional<Failure> TileTiming::cycle(const UnitPins& pins) {
   const auto block = unpack<BlockJob>(pins.input, parameters_.sizes.widths());
   const std::uint64_t tiles = block.tiles & ~passed_;
-  const bool last = std::popcount(tiles) <= 1;
+  const bool last = std::popcount(tiles) <= 1 && is_last_sample();
   const bool made = pins.in_valid && usable_;
   if (std::optional<Failure> failure = compare(pins, usable_ && last)) {
     return failure;
@@ -45,7 +45,7 @@ std::optional<Failure> TileTiming::cycle(const UnitPins& pins) {
 /// After reset the credits come from a register that has yet to see them.
 void TileTiming::clear() {
   if (was_reset_) {
-    coverage_.reset(begun_, waited_);
+    coverage_.reset(begun_, waited_, sample_ != 0);
   }
   was_reset_ = true;
   credits_ = parameters_.fifo_depth;
@@ -54,13 +54,15 @@ void TileTiming::clear() {
   waited_ = false;
   was_done_ = false;
   passed_ = 0;
+  sample_ = 0;
   visible_at_.clear();
 }
 
 void TileTiming::make_job(std::uint64_t cycle, std::uint64_t tiles) {
   --credits_;
   visible_at_.push_back(cycle + kJobLatency);
-  passed_ = was_done_ ? 0 : passed_ | (tiles & -tiles);
+  passed_ = was_done_ ? 0 : is_last_sample() ? passed_ | (tiles & -tiles) : passed_;
+  sample_ = is_last_sample() ? 0 : sample_ + 1;
 }
 
 std::optional<Failure> TileTiming::compare(const UnitPins& pins, bool ready) const {

@@ -3,7 +3,7 @@
 ///     x(n)       = max(visible(block), x(n-1) + 1, a credit is usable)
 ///     visible(n) = x(n) + 3
 ///
-/// and the block is taken in the cycle of its last job.
+/// and the block is taken in the cycle of its last job: a tile has one for each sample of a pixel.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ class TileTiming final : public UnitTiming {
  private:
   [[nodiscard]] std::optional<Failure> compare(const UnitPins& pins, bool ready) const;
   void make_job(std::uint64_t cycle, std::uint64_t tiles);
+  [[nodiscard]] bool is_last_sample() const { return sample_ + 1 == parameters_.sizes.samples; }
 
   TileWalkerParameters parameters_;
   TileCoverage& coverage_;
@@ -37,7 +38,8 @@ class TileTiming final : public UnitTiming {
   bool begun_ = false;        ///< the block at the input has given a job
   bool waited_ = false;       ///< its next job, for a credit
   bool was_done_ = false;     ///< a block was taken in the cycle before
-  std::uint64_t passed_ = 0;  ///< tiles up to that of the last job
+  std::uint64_t passed_ = 0;  ///< tiles all of whose jobs are made
+  int sample_ = 0;            ///< of the next job
   std::deque<std::uint64_t> visible_at_;
   std::uint64_t left_ = 0;
 };

@@ -98,10 +98,23 @@ TEST_CASE("samples: a record is re-timed to the cycles of a run") {
   CHECK(Json::parse(slurp(table))["machines"][0]["cycles"] == read_stats(out)["cycles"]);
 }
 
+TEST_CASE("samples: the RTL is given their number and their places") {
+  const Place place;
+  const auto arguments = [&](const std::string& options) { return place.run("config --rtl " + options).out; };
+  CHECK_THAT(arguments(""), Contains("-DHALFSPACE_SAMPLES=1\n-DHALFSPACE_SAMPLE_POSITIONS=128'h88\n"));
+  CHECK_THAT(arguments("--set raster.samples=4"),
+             Contains("-DHALFSPACE_SAMPLES=4\n-DHALFSPACE_SAMPLE_POSITIONS=128'hae2ae662\n") &&
+                 Contains("-GMemoryTiles=262144\n"));
+  CHECK_THAT(arguments("--set raster.samples=2 --set \"raster.sample_positions=0,15;11,3\""),
+             Contains("-DHALFSPACE_SAMPLES=2\n-DHALFSPACE_SAMPLE_POSITIONS=128'hb30f\n"));
+  // Positions that are those of the standard are the same machine.
+  CHECK(arguments("--set raster.samples=2 --set \"raster.sample_positions=12,12;4,4\"") ==
+        arguments("--set raster.samples=2"));
+}
+
 TEST_CASE("samples: what has one sample a pixel refuses more by name") {
   const Place place;
   const std::string run = "run " + scene("vkcube.ptf.xz") + kFour;
-  check_error(place.run(run + "--fidelity rtl"), {"'raster.samples' is 4", "legal in the RTL: 1"});
   check_error(place.run(run + "--quad-merging 16"), {"'raster.samples' is 4", "quad merging: 1"});
   check_error(place.run(run + "--tile-jobs " + (place.path / "jobs").string()),
               {"'raster.samples' is 4", "legal with --tile-jobs: 1"});
@@ -110,7 +123,6 @@ TEST_CASE("samples: what has one sample a pixel refuses more by name") {
   check_error(place.run("ledger " + scene("vkcube.ptf.xz") + kFour), {"'raster.samples' is 4", "legal with"});
   check_error(place.run("bench stages " + scene("vkcube.ptf.xz") + kFour),
               {"'raster.samples' is 4", "legal with"});
-  check_error(place.run("config --rtl" + kFour), {"'raster.samples' is 4", "legal in the RTL: 1"});
   for (const char* option :
        {"--reports", "--sharpness", "--exhaustive", "--exhaustive-units", "--engine reference:exact"}) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));

@@ -47,6 +47,19 @@ const std::string kView = " --size 64x64 --eye 0,0,1 --at 0,0,0 --fov 90 ";
 
 }  // namespace
 
+TEST_CASE("run refuses to shade a mesh at several samples, and draws it without pictures") {
+  const Place place;
+  const std::string file = (place.path / "square.ply").string();
+  std::ofstream(file) << kRedToGreen;
+  const std::string run = "run " + file + kView + "--out " + (place.path / "out").string();
+  for (const char* setting : {"raster.samples=4", "raster.sample_positions=8,7"}) {
+    const std::string set = " --set " + std::string(setting);
+    check_error(place.run(run + set), {"configuration key 'raster.samples'", "the shaded picture of a mesh",
+                                       "--no-pictures leaves it out", "1, at the centre"});
+    CHECK(place.run(run + set + " --no-pictures").status == 0);
+  }
+}
+
 TEST_CASE("run shades a mesh with its colours, lit from the eye") {
   const Place place;
   const std::string file = (place.path / "square.ply").string();

@@ -353,6 +353,23 @@ TEST_CASE("samples: a depth far outside its range is refused") {
           Catch::Contains("legal for such draws: raster.samples = 1"));
 }
 
+TEST_CASE("samples: lines and points are refused, with one sample beside the centre too") {
+  for (const Primitive primitive : {Primitive::kLines, Primitive::kPoints}) {
+    FrameBuilder builder(16, DepthFormat::kUnorm24);
+    Command& draw = builder.draw({{1, 1, 0.5}, {9, 4, 0.5}, {5, 9, 0.5}, {3, 2, 0.5}});
+    draw.primitive = primitive;
+    Config config;
+    run_functional(builder.frame, config, kWatch);
+    for (const char* setting : {"raster.samples=4", "raster.sample_positions=8,7"}) {
+      Config several;
+      set_config(several, setting);
+      CHECK_THROWS_WITH(run_functional(builder.frame, several, kWatch),
+                        Catch::Contains("draws lines or points, and raster.samples is") &&
+                            Catch::Contains("legal for such draws: raster.samples = 1, at the pixel centre"));
+    }
+  }
+}
+
 TEST_CASE("samples: the fast core leaves them to the units") {
   Config config;
   config.raster.samples = 2;

@@ -114,6 +114,15 @@ TEST_CASE("samples: the box is the least that holds them all") {
         std::array<std::uint8_t, 4>{8, 8, 8, 8});
 }
 
+TEST_CASE("samples: the RTL is given x and y of each in 8 bits, the first in the lowest") {
+  CHECK(to_hex(SamplePattern{}) == "128'h88");
+  CHECK(to_hex(standard_samples(2)) == "128'h44cc");
+  CHECK(to_hex(sample_pattern(with({"raster.samples=4", "raster.sample_positions=0,15;1,10;12,0;3,4"}))) ==
+        "128'h34c01a0f");
+  // Two digits for each of sixteen.
+  CHECK(to_hex(standard_samples(16)).size() == std::string("128'h").size() + 32);
+}
+
 TEST_CASE("samples: a list of positions is read, and written as it was") {
   const Config config = with({"raster.samples=2", "raster.sample_positions=0,15;3,4"});
   const SamplePattern pattern = sample_pattern(config);
@@ -157,5 +166,15 @@ TEST_CASE("samples: what does not fit them is refused by name") {
     validate(with({setting}));
     CHECK_THROWS_WITH(validate(with({"raster.samples=2", setting})), Contains(says));
     CHECK_THROWS_WITH(validate(with({"raster.sample_positions=8,9", setting})), Contains(says));
+  }
+  for (const auto& [mode, says] :
+       {std::pair{"raster.conservative=outer", "'raster.conservative' is outer; legal: off"},
+        {"raster.conservative=inner", "'raster.conservative' is inner; legal: off"}}) {
+    CAPTURE(mode);
+    validate(with({mode, "depth.interpolator=barycentric"}));
+    CHECK_THROWS_WITH(validate(with({mode, "depth.interpolator=barycentric", "raster.samples=2"})),
+                      Contains(says));
+    CHECK_THROWS_WITH(validate(with({mode, "depth.interpolator=barycentric", "raster.sample_positions=8,9"})),
+                      Contains(says));
   }
 }

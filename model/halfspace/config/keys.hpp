@@ -14,7 +14,8 @@
 ///
 ///   KEY    (section., name, type, default, legal, unit, changes, help)           no parameter
 ///   MODULE (..., Parameter)           parameter of raster_pipeline.sv, which has them in the order of the rows
-///   PACKAGE(..., Parameter, define)   parameter of raster_pkg.sv, and the define that sets it
+///   PACKAGE(..., Parameter, define)   parameter of raster_pkg.sv, and the define that sets it; of an int or
+///                                     a SamplePattern
 ///
 /// section  with its dot, as the member is reached: `config.section.name`; empty outside all sections
 /// legal    range(least, most), power_of_two(least, most), boolean(), share(), a number from 0 to 1 that is kept
@@ -35,11 +36,11 @@
     MODULE(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                              \
         "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel", \
         Uncertainty)                                                                                         \
-    KEY(raster., samples, int, 1, power_of_two(1, 16), "", function,                                         \
-        "of a pixel, each with coverage and depth of its own")                                               \
-    KEY(raster., sample_positions, SamplePattern, kStandardSamples, sample_list(), "", function,             \
+    PACKAGE(raster., samples, int, 1, power_of_two(1, 16), "", function,                                     \
+        "of a pixel, each with coverage and depth of its own", PixelSamples, HALFSPACE_SAMPLES)              \
+    PACKAGE(raster., sample_positions, SamplePattern, kStandardSamples, sample_list(), "", function,         \
         "where they are: standard = the standard positions of Direct3D and Vulkan; or a list in 16ths of a " \
-        "pixel from its top left corner, as in \"12,12;4,4\"")                                               \
+        "pixel from its top left corner, as in \"12,12;4,4\"", SamplePositions, HALFSPACE_SAMPLE_POSITIONS)  \
   END(raster)                                                                                                \
   BEGIN(setup)                                                                                               \
     MODULE(setup., queue, int, 8, range(2, 64), "triangles", time,                                           \

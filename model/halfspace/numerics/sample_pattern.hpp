@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace halfspace {
 
@@ -63,6 +64,18 @@ struct SamplePattern {
     return std::ranges::equal(l.positions(), r.positions());
   }
 };
+
+/// As the RTL is given it, a number of 8 bits for each of kMostSamples: x and y, the first sample in the
+/// lowest bits.
+inline std::string to_hex(const SamplePattern& samples) {
+  std::string text = std::to_string(8 * kMostSamples) + "'h";
+  for (int i = samples.count - 1; i >= 0; --i) {
+    const SamplePosition& at = samples.at[static_cast<std::size_t>(i)];
+    text += "0123456789abcdef"[at.x];
+    text += "0123456789abcdef"[at.y];
+  }
+  return text;
+}
 
 /// As the value of a key: the standard positions, of as many samples as there are.
 inline constexpr SamplePattern kStandardSamples{.count = 0};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "halfspace/config/keys.hpp"
+#include "halfspace/numerics/sample_pattern.hpp"
 
 namespace halfspace {
 
@@ -18,6 +19,8 @@ namespace halfspace {
   W(PixelBits,       14,                                               "pixel coordinate on a screen of at most 16384") \
   W(TileLog2,        (TileSize == 4 ? 2 : TileSize == 8 ? 3 : 4),      "pixel coordinate inside a tile")             \
   W(TileCoordBits,   PixelBits - TileLog2,                             "coordinate of a tile on the screen")         \
+  W(SampleLog2,      (PixelSamples == 1 ? 0 : PixelSamples == 2 ? 1 : PixelSamples == 4 ? 2 : PixelSamples == 8 ? 3 : 4), "sample of a pixel") \
+  W(TileColumnBits,  TileCoordBits + SampleLog2,                       "column of a tile behind tile_walker, where the tiles of all samples lie side by side") \
   W(BlockTiles,      BlockSize * BlockSize / (TileSize * TileSize),    "tiles of a block: a mask, bit y * BlockSize / TileSize + x") \
   W(BlockLog2,       TileLog2 + (BlockTiles == 4 ? 1 : BlockTiles == 16 ? 2 : 3), "pixel coordinate inside a block") \
   W(BlockCoordBits,  PixelBits - BlockLog2,                            "coordinate of a block on the screen")        \
@@ -57,7 +60,7 @@ namespace halfspace {
 struct Widths {
 #define NOTHING(...)
 #define PARAMETER(section, name, type, value, legal, unit, changes, help, Parameter, define) \
-  int Parameter = value;
+  type Parameter = value;
   HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, NOTHING, PARAMETER)
 #undef NOTHING
 #undef PARAMETER

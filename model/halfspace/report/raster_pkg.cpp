@@ -25,8 +25,16 @@ struct Parameter {
   std::string_view name;
   std::string_view define;
   std::string legal;
-  int Widths::*member;
+  int Widths::*member;  ///< null: the positions of samples
 };
+Parameter parameter_of(std::string_view name, std::string_view define, const std::string& legal,
+                       int Widths::*member) {
+  return {name, define, legal, member};
+}
+Parameter parameter_of(std::string_view name, std::string_view define, const std::string& legal,
+                       SamplePattern Widths::*) {
+  return {name, define, legal, nullptr};
+}
 
 // Legal values as the package's comment writes them.
 std::string range(int least, int most) { return std::to_string(least) + ".." + std::to_string(most); }
@@ -38,9 +46,33 @@ std::string power_of_two(int least, int most) {
   return text;
 }
 
+std::string sample_list() {
+  return std::to_string(8 * kMostSamples) +
+         "'h...: x and y of each sample in 16ths of a pixel, the first last";
+}
+
+/// Where the samples are unless a define says so: the standard positions of as many as there are.
+std::string standard_positions() {
+  std::string text;
+  for (int samples = 2; samples <= kMostSamples; samples *= 2) {
+    text += "PixelSamples == " + std::to_string(samples) + " ? " + to_hex(standard_samples(samples)) +
+            " : \\\n  ";
+  }
+  return "(" + text + to_hex(SamplePattern{}) + ")";
+}
+
+std::string default_of(const Parameter& parameter) {
+  return parameter.member == nullptr ? standard_positions() : std::to_string(Widths{}.*parameter.member);
+}
+
+std::string type_of(const Parameter& parameter) {
+  return parameter.member == nullptr ? "logic [" + std::to_string(8 * kMostSamples - 1) + ":0]"
+                                     : "int unsigned";
+}
+
 #define NOTHING(...)
 #define PACKAGE(section, name, type, value, legal, unit, changes, help, parameter, define) \
-  Parameter{#parameter, #define, legal, &Widths::parameter},
+  parameter_of(#parameter, #define, legal, &Widths::parameter),
 const std::vector<Parameter> kParameters{HALFSPACE_KEYS(NOTHING, NOTHING, NOTHING, NOTHING, PACKAGE)};
 #undef NOTHING
 #undef PACKAGE
@@ -68,6 +100,13 @@ std::string_view name_of(int Widths::*member) {
 std::string length_name(int Widths::*member) {
   const auto entry = std::ranges::find(kParameters, member, &Parameter::member);
   return std::string(entry != kParameters.end() ? entry->name : name_of(member));
+}
+
+/// Of at most 100 characters: a choice goes on in the next.
+std::string in_lines(const std::string& text) {
+  constexpr std::size_t kMost = 100;
+  const std::size_t end = text.size() <= kMost ? std::string::npos : text.rfind(" : ", kMost - 2);
+  return end == std::string::npos ? text : text.substr(0, end + 2) + "\n      " + text.substr(end + 3);
 }
 
 /// "TileCoordBits" -> "tile_coord_t".
@@ -181,18 +220,18 @@ std::string raster_pkg() {
   for (const Parameter& parameter : kParameters) {
     text.append("\n`ifndef ").append(parameter.define);
     text.append("\n`define ").append(parameter.define).append(" ");
-    text.append(std::to_string(Widths{}.*parameter.member)).append("\n`endif");
+    text.append(default_of(parameter)).append("\n`endif");
   }
   text += "\n\npackage raster_pkg;\n\n";
   for (const Parameter& parameter : kParameters) {
-    text += "  parameter int unsigned " + std::string(parameter.name) + " = `" +
+    text += "  parameter " + type_of(parameter) + " " + std::string(parameter.name) + " = `" +
             std::string(parameter.define) + ";\n";
   }
   text += "\n";
   for (const WidthEntry& entry : kWidthTable) {
     text += "  // " + std::string(entry.meaning) + "\n";
-    text +=
-        "  parameter int unsigned " + std::string(entry.name) + " = " + std::string(entry.formula) + ";\n";
+    text += in_lines("  parameter int unsigned " + std::string(entry.name) + " = " +
+                     std::string(entry.formula) + ";\n");
   }
   text += constants();
   std::vector<int Widths::*> types;

@@ -112,7 +112,7 @@ struct DrawStatePacket {
     visit("func", &P::func, &Widths::FuncBits, Sign::kUnsigned);
     visit("clear_code", &P::clear_code, &Widths::CodeBits, Sign::kUnsigned);
     visit("first_tile", &P::first_tile, &Widths::LineBits, Sign::kUnsigned);
-    visit("tiles_x", &P::tiles_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tiles_x", &P::tiles_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("first_block", &P::first_block, &Widths::LineBits, Sign::kUnsigned);
     visit("blocks_x", &P::blocks_x, &Widths::BlockCoordBits, Sign::kUnsigned);
   }
@@ -311,7 +311,7 @@ struct QuadBeat {
   static constexpr void fields(Visit&& visit) {
     using P = QuadBeat;
     visit("slot", &P::slot, &Widths::SlotBits, Sign::kUnsigned);
-    visit("tile_x", &P::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_x", &P::tile_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("tile_y", &P::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("e", &P::e, &Widths::EdgeBits, Sign::kSigned);
     visit("last", &P::last, &Widths::FlagBits, Sign::kUnsigned);
@@ -354,7 +354,7 @@ struct TestedBeat {
   static constexpr void fields(Visit&& visit) {
     using P = TestedBeat;
     visit("slot", &P::slot, &Widths::SlotBits, Sign::kUnsigned);
-    visit("tile_x", &P::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_x", &P::tile_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("tile_y", &P::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("last", &P::last, &Widths::FlagBits, Sign::kUnsigned);
     visit("index", &P::index, &Widths::QuadIndexBits, Sign::kUnsigned, &Widths::TestWidth);

@@ -175,7 +175,7 @@ struct TileJob {
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
     visit("slot", &TileJob::slot, &Widths::SlotBits, Sign::kUnsigned);
-    visit("tile_x", &TileJob::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_x", &TileJob::tile_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("tile_y", &TileJob::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("e", &TileJob::e, &Widths::EdgeBits, Sign::kSigned);
     visit("a", &TileJob::a, &Widths::StepBits, Sign::kSigned);
@@ -207,7 +207,7 @@ struct Coverage {
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
     visit("slot", &Coverage::slot, &Widths::SlotBits, Sign::kUnsigned);
-    visit("tile_x", &Coverage::tile_x, &Widths::TileCoordBits, Sign::kUnsigned);
+    visit("tile_x", &Coverage::tile_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("tile_y", &Coverage::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);
     visit("sure", &Coverage::sure, &Widths::FlagBits, Sign::kUnsigned);
     visit("e", &Coverage::e, &Widths::EdgeBits, Sign::kSigned);

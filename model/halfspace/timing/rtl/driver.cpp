@@ -16,7 +16,10 @@ using Cycle = RunState::Cycle;
 constexpr int kResetCycles = 2;
 /// A machine in which nothing moves for so long, and the longest wait for memory, will not move any more: the
 /// longest clear takes a cycle a tile.
-constexpr Cycle kLongestRest = 2 * Cycle{kMemoryTiles};
+Cycle longest_rest(const Config& config) {
+  return 2 * Cycle{memory_tiles(config)} +
+         4 * static_cast<Cycle>(config.memory.latency + config.late_z.latency);
+}
 
 }  // namespace
 
@@ -26,8 +29,7 @@ Driver::Driver(const Frame& frame, RunState& run, PortListener& listener)
       listener_(listener),
       source_(frame, run.config, run.options.watch.observer, run.result.surfaces, run.result, run.draws),
       before_(run.config, run.report),
-      longest_rest_(kLongestRest +
-                    4 * static_cast<Cycle>(run.config.memory.latency + run.config.late_z.latency)) {
+      longest_rest_(longest_rest(run.config)) {
   const int tile_size = run.config.tile_walker.tile_size;
   run.in.triangle.resize(words_for(packed_bits<ScreenTrianglePacket>(run.widths)));
   run.in.state.resize(words_for(packed_bits<DrawStatePacket>(run.widths)));

@@ -4,8 +4,6 @@
 
 #include <type_traits>
 
-#include "halfspace/numerics/error.hpp"
-
 namespace halfspace::rtl {
 namespace {
 
@@ -16,20 +14,20 @@ requires std::is_enum_v<Enumeration> std::string value_text(Enumeration value) {
 }
 // A bit must be written as one: Verilator warns of a wider number.
 std::string value_text(bool value) { return value ? "1'b1" : "1'b0"; }
+std::string value_text(const SamplePattern& samples) { return to_hex(samples); }
 
 }  // namespace
+
+std::uint32_t memory_tiles(const Config& config) {
+  return kMemoryTiles * static_cast<std::uint32_t>(config.raster.samples);
+}
 
 std::vector<std::string> pipeline_arguments(const Config& machine) {
   Config config = machine;
   if (config.raster.conservative == Conservative::kOff) {
     config.raster.uncertainty = Config{}.raster.uncertainty;  // of nothing: no other RTL
   }
-  if (!sample_pattern(config).is_centre()) {
-    throw OptionError(
-        fmt::format("configuration key 'raster.samples' is {}; legal in the RTL: 1, at the pixel "
-                    "centre",
-                    config.raster.samples));
-  }
+  config.raster.sample_positions = sample_pattern(machine);
   std::vector<std::string> arguments;
   std::vector<std::string> parameters;
 #define NOTHING(...)
@@ -42,7 +40,7 @@ std::vector<std::string> pipeline_arguments(const Config& machine) {
 #undef PACKAGE
 #undef MODULE
   arguments.insert(arguments.end(), parameters.begin(), parameters.end());
-  arguments.push_back(fmt::format("-GMemoryTiles={}", kMemoryTiles));
+  arguments.push_back(fmt::format("-GMemoryTiles={}", memory_tiles(config)));
   arguments.push_back(fmt::format("-GMemoryBlocks={}", kMemoryBlocks));
   return arguments;
 }

@@ -26,10 +26,10 @@ void check_options(const EngineOptions& options) {
 void check_size(const Frame& frame, const RunState& run) {
   const std::uint32_t tiles = run.places.empty() ? 0 : run.places.back().first_tile + run.places.back().tiles;
   const int size = run.config.tile_walker.tile_size;
-  if (tiles > kMemoryTiles) {
+  if (tiles > memory_tiles(run.config)) {
     throw InputError(
         fmt::format("{}: its depth surfaces have {} tiles of {}x{}; legal for the RTL: at most {}",
-                    frame.name, tiles, size, size, kMemoryTiles));
+                    frame.name, tiles, size, size, memory_tiles(run.config)));
   }
   const std::uint32_t blocks =
       run.blocks.empty() ? 0 : run.blocks.back().first_block + run.blocks.back().blocks;
