@@ -16,6 +16,7 @@
 #include "halfspace/cli/progress.hpp"
 #include "halfspace/cli/run_reference.hpp"
 #include "halfspace/cli/run_table.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/recorder.hpp"
@@ -24,7 +25,6 @@
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/whatif/sequence.hpp"
 
 namespace halfspace {
@@ -51,9 +51,10 @@ struct RunCommand {
   std::string interpolation;
 
   [[nodiscard]] bool wants_pictures() const { return !out.empty() && !no_pictures; }
-  /// Only pictures show attributes.
-  [[nodiscard]] MeshContent content() const {
-    return wants_pictures() ? MeshContent::kAttributes : MeshContent::kGeometry;
+  /// Pictures show attributes, and the quads that the interpolator gets.
+  [[nodiscard]] MeshContent content(const Config& config) const {
+    const bool interpolates = quads && config.interpolator.enabled;
+    return wants_pictures() || interpolates ? MeshContent::kAttributes : MeshContent::kGeometry;
   }
 };
 
@@ -179,7 +180,7 @@ ExitStatus run_command(const RunCommand& command) {
     check_reference(command);
     const Config config = command.machine.config(Samples::kAny);
     require_centre(config, "--reference");
-    Frame frame = whatif::join(command.input.frames(command.content()));
+    Frame frame = whatif::join(command.input.frames(command.content(config)));
     const Interpolation interpolation = interpolation_of(command, frame);
     run_reference({.method = command.reference,
                    .out = command.out,
@@ -202,7 +203,7 @@ ExitStatus run_command(const RunCommand& command) {
     require_centre(config, "--tile-jobs");
   }
   const whatif::WhatIf what_if = command.what_if.what_if();
-  std::vector<Frame> frames = command.input.frames(command.content());
+  std::vector<Frame> frames = command.input.frames(command.content(config));
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
   const Interpolation interpolation = interpolation_of(command, frame);
@@ -210,6 +211,7 @@ ExitStatus run_command(const RunCommand& command) {
   std::optional<OutputFolder> folder;
   Recorder::Options record;
   record.samples = config.raster.samples;
+  record.attributes = config.interpolator.enabled ? config.interpolator.attributes : 0;
   if (!command.out.empty()) {
     folder.emplace(command.out);
     if (command.quads) {

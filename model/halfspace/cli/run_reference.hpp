@@ -5,8 +5,8 @@
 #include <string>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 
 namespace halfspace {
 

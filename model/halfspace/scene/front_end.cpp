@@ -186,7 +186,11 @@ void FrontEnd::emit_fan(const Polygon<Window>& polygon, std::uint32_t index, std
     return emit_outline(polygon, unit, index, out, counters);
   }
   for (std::size_t i = 1; i + 1 < polygon.size; ++i) {
+    const std::size_t first = out.size();
     emit({polygon.v[0], polygon.v[i], polygon.v[i + 1]}, unit, index, out, counters);
+    for (std::size_t n = first; n < out.size(); ++n) {
+      out[n].piece = static_cast<std::uint8_t>(i - 1);
+    }
   }
 }
 

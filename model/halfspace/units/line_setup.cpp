@@ -50,6 +50,7 @@ SetupVerdict line_setup(const ScreenTriangle& in, const SetupState& state, Setup
   }
   out.edge = {line.edge[0], line.edge[1], Edge{}};
   out.triangle = in.triangle;
+  out.piece = in.piece;
   out.front = true;
   out.depth = {};
   out.plane = {};

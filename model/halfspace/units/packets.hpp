@@ -55,6 +55,7 @@ struct ScreenTriangle {
   std::int64_t offset = 0;          ///< added to the depth of each fragment; in the form of z
   PixelRect within = kWholeScreen;  ///< the pixels that are drawn
   ScreenShape shape = ScreenShape::kTriangle;
+  std::uint8_t piece = 0;  ///< of the fan that clipping made of the source triangle; 0 for lines and points
 };
 
 /// One edge equation: inside is E >= 0, because the fill rule is folded into c.
@@ -107,7 +108,8 @@ struct SetupTriangle {
   PixelRect bounds;  ///< pixels that scissor and target hold, and of which the bounding box may hold a sample
   DepthEquation depth;
   std::uint32_t triangle = 0;
-  bool front = false;  ///< faces front; only who looks at quads asks
+  bool front = false;      ///< faces front; only who looks at quads asks
+  std::uint8_t piece = 0;  ///< as in ScreenTriangle; only the interpolator asks
 };
 
 /// block_walker -> tile_walker: a block that a triangle may touch.

@@ -93,6 +93,7 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
     out.depth.bias[i] = owns ? 0 : 1;
   }
   out.triangle = in.triangle;
+  out.piece = in.piece;
   out.front = front;
   if (state.depth_format != DepthFormat::kNone) {
     make_depth_equation(v, in.offset, out.edge, area2, state.depth_format, state.limits, state.interpolator,

@@ -26,6 +26,9 @@ std::vector<std::string> pipeline_arguments(const Config& config) {
                     "centre",
                     config.raster.samples));
   }
+  if (config.interpolator.enabled) {
+    throw OptionError("configuration key 'interpolator.enabled' is true; legal in the RTL: false");
+  }
   std::vector<std::string> arguments;
   std::vector<std::string> parameters;
 #define NOTHING(...)
