@@ -119,6 +119,7 @@ module raster_pipeline
   quad_generator_activity_e quad_activity;
   z_lookup_activity_e       lookup_activity;
   z_test_activity_e         test_activity;
+  interpolator_activity_e   interpolator_activity;
 
   logic            triangle_valid, triangle_ready;
   setup_triangle_t triangle;
@@ -375,9 +376,12 @@ module raster_pipeline
     .activity_o        (test_activity)
   );
 
+  // No machine of the RTL has it yet.
+  assign interpolator_activity = InterpolatorNoBurst;
+
   assign activity_o = {
-    test_activity, lookup_activity, quad_activity, edge_activity, tile_activity, hi_z_activity,
-    block_activity, setup_activity
+    interpolator_activity, test_activity, lookup_activity, quad_activity, edge_activity,
+    tile_activity, hi_z_activity, block_activity, setup_activity
   };
 
   cycle_counters #(

@@ -325,7 +325,7 @@ package raster_pkg;
   } shaded_quad_t;
 
   // stages that count their cycles, and what each of them may spend one on: busy, or a reason to wait
-  parameter int unsigned StageCount = 8;
+  parameter int unsigned StageCount = 9;
   parameter int unsigned ActivityCount = 6;
   parameter int unsigned ActivityBits = $clog2(ActivityCount);
 
@@ -393,6 +393,13 @@ package raster_pkg;
     ZTestWriteBuffer = 4,
     ZTestNoCredit = 5
   } z_test_activity_e;
+
+  // a cycle of interpolator
+  typedef enum logic [ActivityBits-1:0] {
+    InterpolatorBusy = 0,
+    InterpolatorNoBurst = 1,
+    InterpolatorNoCredit = 2
+  } interpolator_activity_e;
 
   // what can happen in a cycle: bits of the probe of the pipeline's bench
   parameter int unsigned EventDecide = 0;  // setup draws or drops a triangle

@@ -280,8 +280,10 @@ class Bench {
         stage == Stage::kZLookup && reason == stall::kLookupRequest;  // of one part before the last
     const bool hi_z = stage == Stage::kHiZ && reason != stall::kNoInput;
     const bool late = stage == Stage::kZTest && reason == stall::kTestLate;
+    const bool shaded = stage == Stage::kInterpolator && reason != stall::kNoInput;
     return !(divider && config_.setup.interval == 1) && !(request && config_.z_cache.parts == 1) &&
-           !(hi_z && !config_.hi_z.enabled) && !(late && config_.late_z.mode != LateZ::kLate);
+           !(hi_z && !config_.hi_z.enabled) && !(late && config_.late_z.mode != LateZ::kLate) &&
+           !(shaded && !config_.interpolator.enabled);
   }
 
   void print() const {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "../property/random.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/scene/camera.hpp"
 #include "halfspace/scene/front_end.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 
 using namespace halfspace;
 using halfspace::testing::Random;

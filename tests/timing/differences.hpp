@@ -162,6 +162,9 @@ class Events : public PacketObserver {
     quads.insert(quads.end(),
                  {event.draw, event.triangle, event.surface, event.x, event.y, event.front, event.mask,
                   event.passed, event.depth[0], event.depth[1], event.depth[2], event.depth[3]});
+    for (const QuadAttribute& attribute : event.attributes) {
+      quads.insert(quads.end(), attribute.begin(), attribute.end());
+    }
     cycles.push_back(event.cycle);
   }
   void decision(const DecisionEvent& event) override {

@@ -154,6 +154,26 @@ inline Config random_sampled_config(Random& random) {
   return config;
 }
 
+/// With the interpolator behind early_z; `config` loses what is not legal with it.
+inline void draw_interpolator(Random& random, Config& config) {
+  config.interpolator.enabled = true;
+  config.interpolator.attributes = static_cast<int>(random.between(1, 8));
+  config.interpolator.bits = 2 * static_cast<int>(random.between(4, 12));
+  config.interpolator.fifo = mostly_small(random, 2, 64);
+  config.raster.conservative = Conservative::kOff;
+  for (;;) {
+    try {
+      validate(config);
+      return;
+    } catch (const InputError&) {  // more places in FIFOs than slots for triangles
+      config.early_z.fifo = mostly_small(random, 2, 64);
+      config.early_z.pending = mostly_small(random, 2, 64);
+      config.tile_walker.fifo = mostly_small(random, 2, 64);
+      config.quad_generator.fifo = mostly_small(random, 2, 64);
+    }
+  }
+}
+
 /// A random machine for the packets of `recorded`.
 inline Config random_timing(Random& random, const Config& recorded) {
   while (true) {
@@ -312,15 +332,21 @@ inline Frame random_frame(Random& random) {
   return builder.frame;
 }
 
-/// None, or some at any of the points.
+inline StallPlan::Rate random_rate(Random& random) {
+  return {.percent = pick(random, {0u, 5u, 30u, 100u}), .max_cycles = pick(random, {1u, 3u, 20u, 200u})};
+}
+
+/// None, or some at any of the points but that behind the interpolator.
 inline StallPlan random_stalls(Random& random) {
   StallPlan plan;
   plan.seed = static_cast<std::uint64_t>(random.between(0, 1 << 30));
   if (random.between(0, 2) == 0) {
     return plan;
   }
-  for (StallPlan::Rate& rate : plan.rate) {
-    rate = {.percent = pick(random, {0u, 5u, 30u, 100u}), .max_cycles = pick(random, {1u, 3u, 20u, 200u})};
+  for (std::size_t i = 0; i < kStallPoints; ++i) {
+    if (static_cast<StallPoint>(i) != StallPoint::kInterpolator) {
+      plan.rate[i] = random_rate(random);
+    }
   }
   return plan;
 }

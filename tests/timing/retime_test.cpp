@@ -141,6 +141,9 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"hi_z.bits", "9"},
                                                          {"hi_z.lag", "77"},
                                                          {"depth.interpolator", "barycentric"},
+                                                         {"interpolator.enabled", "true"},
+                                                         {"interpolator.attributes", "3"},
+                                                         {"interpolator.bits", "12"},
                                                          {"late_z.mode", "no_write"},
                                                          {"late_z.discard", "0.5"},
                                                          {"z_cache.fast_clear", "false"},
@@ -153,6 +156,14 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
     CHECK_THROWS_AS(retimer.retime(std::vector<Config>{Config{}, config}), InputError);
     CHECK_THROWS_AS(retimer.estimate(std::vector<Config>{config}), InputError);
   }
+}
+
+TEST_CASE("a record with the interpolator is refused", "[timing]") {
+  Random random(seed());
+  Config config;
+  config.interpolator.enabled = true;
+  CHECK_THROWS_WITH(record_frame(random_frame(random), config),
+                    "configuration key 'interpolator.enabled' is true; legal in a record: false");
 }
 
 TEST_CASE("parts of a tile belong to a record with hi_z or coded lines", "[timing]") {

@@ -115,3 +115,33 @@ TEST_CASE("systemc equals recurrence on random machines", "[timing]") {
     }
   }
 }
+
+TEST_CASE("systemc equals recurrence with the interpolator", "[timing]") {
+  const std::uint64_t first = seed();
+  std::uint64_t waits = 0;
+  std::uint64_t killed = 0;
+  for (std::uint64_t n = 0; n < cases(); ++n) {
+    Random random(first + 1000 + n);
+    Config config = random_sampled_config(random);
+    draw_interpolator(random, config);
+    const bool lines = n % 8 == 0 && sample_pattern(config).is_centre();
+    const Frame frame = lines ? random_lines(random, takes_thin_lines(config)) : random_frame(random);
+    StallPlan stalls = random_stalls(random);
+    if (random.between(0, 1) == 0) {
+      stalls.rate[static_cast<std::size_t>(StallPoint::kInterpolator)] = random_rate(random);
+    }
+    validate(frame);
+    CAPTURE(first, n, difference_from_default(config));
+    REQUIRE(compare(frame, config, stalls) == "");
+    EngineOptions options;
+    options.stalls = stalls;
+    const TimedResult run = run_recurrence(frame, config, options);
+    const auto stage = static_cast<std::size_t>(Stage::kInterpolator);
+    waits += run.cycles.stats.stage[stage].stall[stall::kInterpolatorNoCredit];
+    killed += run.frame.counters.interpolator.quads_killed;
+    REQUIRE(run.cycles.stats.packets[static_cast<std::size_t>(Link::kInterpolator)] ==
+            run.frame.counters.interpolator.attributes);
+  }
+  CHECK(waits != 0);
+  CHECK(killed != 0);
+}

@@ -153,7 +153,21 @@ TEST_CASE("config: keys that must fit each other") {
         "configuration key 'z_cache.misses_in_flight' is 3; legal: at least 'z_cache.parts' (4)");
   CHECK(error_of({"z_cache.parts=4", "z_cache.write_buffers=3"}) ==
         "configuration key 'z_cache.write_buffers' is 3; legal: at least 'z_cache.parts' (4)");
+  CHECK(error_of({"interpolator.bits=9"}) ==
+        "configuration key 'interpolator.bits' is 9; legal: an even number");
+  CHECK(error_of(
+            {"interpolator.enabled=true", "raster.conservative=outer", "depth.interpolator=barycentric"}) ==
+        "configuration key 'interpolator.enabled' is true; legal: false with 'raster.conservative' outer or "
+        "inner");
+  // 4 + 64 + 32 + 64 + 64 places before early_z's output, and a triangle under way in block_walker
+  CHECK(error_of({"interpolator.enabled=true", "tile_walker.fifo=64", "edge_evaluator.fifo=32",
+                  "quad_generator.fifo=64", "early_z.pending=64", "early_z.fifo=28"}) ==
+        "configuration key 'early_z.fifo' is 28; legal: at most 27 with 'interpolator.enabled' and the FIFOs "
+        "before it: a triangle keeps its slot of 256 until the interpolator has its last quad");
   // And the same just inside.
+  CHECK(error_of({"interpolator.enabled=true", "tile_walker.fifo=64", "edge_evaluator.fifo=32",
+                  "quad_generator.fifo=64", "early_z.pending=64", "early_z.fifo=27"})
+            .empty());
   CHECK(error_of({"tile_walker.tile_size=4", "block_walker.block_size=8"}).empty());
   CHECK(error_of({"quad_generator.quads_per_cycle=16", "early_z.quads_per_cycle=16"}).empty());
   CHECK(error_of({"tile_walker.tile_size=4", "z_cache.parts=2"}).empty());

@@ -48,7 +48,7 @@ class NotingReader final : public StreamReader {
     sizes.insert(sizes.end(),
                  {part.segments.size(), part.triangles.size(), part.blocks.size(), part.jobs.size(),
                   part.accesses.size(), part.misses.size(), part.miss_burst.size(), part.late.size(),
-                  part.tiles.size(),
+                  part.tiles.size(), part.live.size(),
                   std::size_t{part.continues_segment} + std::size_t{part.continues_triangle} * 2 +
                       std::size_t{part.open_segment} * 4 + std::size_t{part.open_triangle} * 8});
   }
@@ -82,6 +82,7 @@ void write_part(StreamReader& reader, std::size_t number) {
   std::vector<std::uint32_t> miss_burst(number % 7 + 1, kNoBurst);
   std::vector<StreamLate> late(number % 3 + 1, StreamLate{.access = kNoBurst});
   std::vector<StreamTile> tiles(jobs.size());
+  std::vector<std::uint64_t> live(number % 4, number);
   reader.read({.segments = segments,
                .triangles = triangles,
                .blocks = blocks,
@@ -91,6 +92,7 @@ void write_part(StreamReader& reader, std::size_t number) {
                .miss_burst = miss_burst,
                .late = late,
                .tiles = tiles,
+               .live = live,
                .continues_segment = number % 2 == 0,
                .continues_triangle = number % 4 < 2,
                .open_segment = number % 8 < 4,

@@ -18,6 +18,7 @@
 #include "halfspace/cli/run_reference.hpp"
 #include "halfspace/cli/run_table.hpp"
 #include "halfspace/cli/supersample_options.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/machine/observer_pair.hpp"
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/output_folder.hpp"
@@ -29,7 +30,6 @@
 #include "halfspace/report/timeline.hpp"
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/whatif/sequence.hpp"
 
 namespace halfspace {
@@ -59,9 +59,10 @@ struct RunCommand {
   SupersampleOptions supersample;
 
   [[nodiscard]] bool wants_pictures() const { return !out.empty() && !no_pictures; }
-  /// Only pictures show attributes.
-  [[nodiscard]] MeshContent content() const {
-    return wants_pictures() ? MeshContent::kAttributes : MeshContent::kGeometry;
+  /// Pictures show attributes, and the quads that the interpolator gets.
+  [[nodiscard]] MeshContent content(const Config& config) const {
+    const bool interpolates = quads && config.interpolator.enabled;
+    return wants_pictures() || interpolates ? MeshContent::kAttributes : MeshContent::kGeometry;
   }
 };
 
@@ -104,8 +105,8 @@ PictureOptions picture_options(const RunCommand& command, const Frame& frame) {
 }
 
 /// As large as they are drawn.
-std::vector<Frame> frames_of(const RunCommand& command) {
-  std::vector<Frame> frames = command.input.frames(command.content());
+std::vector<Frame> frames_of(const RunCommand& command, const Config& config) {
+  std::vector<Frame> frames = command.input.frames(command.content(config));
   command.supersample.apply(frames, command.wants_pictures());
   return frames;
 }
@@ -226,7 +227,7 @@ ExitStatus run_command(const RunCommand& command) {
     check_reference(command);
     const Config config = command.machine.config(Samples::kAny);
     require_centre(config, "--reference");
-    Frame frame = whatif::join(frames_of(command));
+    Frame frame = whatif::join(frames_of(command, config));
     const PictureOptions picture = picture_options(command, frame);
     run_reference({.method = command.reference,
                    .out = command.out,
@@ -250,7 +251,7 @@ ExitStatus run_command(const RunCommand& command) {
     require_centre(config, "--tile-jobs");
   }
   const whatif::WhatIf what_if = command.what_if.what_if();
-  std::vector<Frame> frames = frames_of(command);
+  std::vector<Frame> frames = frames_of(command, config);
   const std::optional<Frame> as_it_is = what_if.any() ? std::optional(whatif::join(frames)) : std::nullopt;
   const auto [frame, applied] = whatif::apply(std::move(frames), what_if);
   const PictureOptions picture = picture_options(command, frame);
@@ -258,6 +259,7 @@ ExitStatus run_command(const RunCommand& command) {
   std::optional<OutputFolder> folder;
   Recorder::Options record;
   record.samples = config.raster.samples;
+  record.attributes = config.interpolator.enabled ? config.interpolator.attributes : 0;
   if (!command.out.empty()) {
     folder.emplace(command.out);
     if (command.quads) {

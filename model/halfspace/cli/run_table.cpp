@@ -70,6 +70,12 @@ void print_table(const Frame& frame, const FrameResult& result) {
       fmt::format("fragments survive ({:.1f}%); {} tested, {} written",
                   percent(c.early_z.survivors, c.quad_generator.fragments), c.early_z.tested,
                   c.early_z.written));
+  if (c.interpolator.quads + c.interpolator.quads_killed != 0) {
+    row("interpolator", c.interpolator.quads,
+        fmt::format("quads ({:.1f}%); {} with an attribute each, {} helpers",
+                    percent(c.interpolator.quads, c.quad_generator.quads), c.interpolator.attributes,
+                    c.interpolator.helpers));
+  }
   if (result.draws_not_filled != 0) {
     fmt::print("  {} draws skipped: their polygons are drawn as lines or points\n", result.draws_not_filled);
   }

@@ -410,6 +410,33 @@ void validate_samples(const Config& config) {
          config.raster.conservative == Conservative::kOuter ? "outer" : "inner", "off");
 }
 
+/// That a tile job can name.
+constexpr int kTriangleSlots = 1 << Widths{}.SlotBits;
+
+/// Behind early_z: what the interpolator takes, and the slots that its triangles are kept in.
+void validate_interpolator(const Config& config) {
+  const auto demand = [](bool legal, const std::string& key, const std::string& value,
+                         const std::string& what) {
+    if (!legal) {
+      throw OptionError(fmt::format("configuration key '{}' is {}; legal: {}", key, value, what));
+    }
+  };
+  const int bits = config.interpolator.bits;
+  demand(bits % 2 == 0, "interpolator.bits", std::to_string(bits), "an even number");
+  if (!config.interpolator.enabled) {
+    return;
+  }
+  demand(config.raster.conservative == Conservative::kOff, "interpolator.enabled", "true",
+         "false with 'raster.conservative' outer or inner");
+  const int kept = (config.hi_z.enabled ? config.hi_z.fifo : config.block_walker.fifo) +
+                   config.tile_walker.fifo + config.edge_evaluator.fifo + config.quad_generator.fifo +
+                   config.early_z.pending + config.early_z.fifo;
+  demand(kept < kTriangleSlots, "early_z.fifo", std::to_string(config.early_z.fifo),
+         fmt::format("at most {} with 'interpolator.enabled' and the FIFOs before it: a triangle keeps its "
+                     "slot of {} until the interpolator has its last quad",
+                     kTriangleSlots - 1 - (kept - config.early_z.fifo), kTriangleSlots));
+}
+
 }  // namespace
 
 void validate(const Config& config) {
@@ -449,6 +476,7 @@ void validate(const Config& config) {
   demand(config.z_cache.write_buffers >= config.z_cache.parts, "z_cache.write_buffers",
          config.z_cache.write_buffers, one_a_part);
   validate_samples(config);
+  validate_interpolator(config);
 }
 
 std::string to_toml(const Config& config) {

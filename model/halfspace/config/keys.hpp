@@ -138,6 +138,17 @@
     MODULE(depth., latency, int, 12, range(12, 32), "cycles", time,                                            \
         "pipeline registers of the interpolator", InterpolatorLatency)                                       \
   END(depth)                                                                                                 \
+  BEGIN(interpolator)                                                                                        \
+    KEY(interpolator., enabled, bool, false, boolean(), "", function,                                        \
+        "interpolate the attributes of what passes, behind early_z")                                         \
+    KEY(interpolator., attributes, int, 2, range(1, 8), "", function,                                        \
+        "of four components each that the shader of a draw reads")                                           \
+    KEY(interpolator., bits, int, 24, range(8, 24), "bits", function,                                        \
+        "of mantissas and weights; even")                                                                    \
+    KEY(interpolator., fifo, int, 35, range(2, 64), "quads", time,                                           \
+        "output FIFO, a quad with one attribute each; below half of 'interpolator.bits' and 23 not one in "  \
+        "every cycle")                                                                                       \
+  END(interpolator)                                                                                          \
   BEGIN(z_cache)                                                                                             \
     MODULE(z_cache., lines, int, 128, power_of_two(1, 4096), "lines", time,                                  \
         "lines of the z cache, all parts and ways together; each holds tile_size^2 / parts samples of "      \

@@ -108,6 +108,9 @@ std::string_view gap(const Config& config, const Watch& watch, const StreamReade
   if (config.hi_z.enabled) {
     return "hi_z.enabled = true";
   }
+  if (config.interpolator.enabled) {
+    return "interpolator.enabled = true";
+  }
   if (config.late_z.mode == LateZ::kLate) {
     return "late_z.mode = late";
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "halfspace/machine/packet_observer.hpp"
 #include "halfspace/machine/packet_sums.hpp"
@@ -12,6 +13,8 @@
 #include "halfspace/units/z_test.hpp"
 
 namespace halfspace {
+
+class AttributeSource;
 
 /// Draw number of what belongs to no draw: clears that are drawn.
 inline constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
@@ -26,9 +29,11 @@ struct DrawContext {
   SetupState setup;
   EarlyZState early_z;
   ShaderDiscard discard;
-  bool keeps_visible = false;          ///< its survivors go into Surface::visible
-  PacketSums* sums = nullptr;          ///< of the surface, where they are kept
-  PacketObserver* observer = nullptr;  ///< not null where one of the following is set
+  int attributes = 0;  ///< that its shader reads of each quad, from the interpolator
+  std::shared_ptr<const AttributeSource> source;  ///< their values; null where nobody looks at them
+  bool keeps_visible = false;                     ///< its survivors go into Surface::visible
+  PacketSums* sums = nullptr;                     ///< of the surface, where they are kept
+  PacketObserver* observer = nullptr;             ///< not null where one of the following is set
   bool record_quads = false;
   bool record_decisions = false;
   bool record_jobs = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "halfspace/machine/attribute_source.hpp"
 #include "halfspace/machine/surfaces.hpp"
 #include "halfspace/numerics/error.hpp"
 
@@ -122,6 +123,7 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
   draw.early_z = early_z_state(command, format, config_);
   draw.early_z.unrestricted = unrestricted_[number];
   draw.discard = shader_discard(config_);
+  draw.attributes = config_.interpolator.enabled ? config_.interpolator.attributes : 0;
   draw.keeps_visible = !surface.visible.empty() && (draw.early_z.write || !depth_written_[number]);
   draw.sums = surface.sums.empty() ? nullptr : &surface.sums;
   if (observer_ != nullptr) {
@@ -130,6 +132,9 @@ void FrameSource::begin_draw(const Command& command, std::uint32_t index) {
     draw.record_decisions = observer_->wants_decisions();
     draw.record_jobs = observer_->wants_tile_jobs();
     draw.record_walk = observer_->wants_walk();
+    if (draw.attributes != 0 && draw.record_quads) {
+      draw.source = std::make_shared<AttributeSource>(frame_, command, config_);
+    }
     tell_done_ = true;
   }
   draw_ = &draw;

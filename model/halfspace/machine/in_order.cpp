@@ -10,6 +10,7 @@
 #include "halfspace/machine/passage/block_walker.hpp"
 #include "halfspace/machine/passage/edge_evaluator.hpp"
 #include "halfspace/machine/passage/hi_z.hpp"
+#include "halfspace/machine/passage/interpolator.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
 #include "halfspace/machine/passage/setup.hpp"
 #include "halfspace/machine/passage/sink.hpp"
@@ -27,8 +28,10 @@ namespace {
 /// Quads wait here for the cycle of their burst.
 class QuadQueue {
  public:
-  QuadQueue(PacketObserver* observer, std::uint64_t quads_per_cycle)
-      : observer_(observer), quads_per_cycle_(quads_per_cycle) {}
+  QuadQueue(PacketObserver* observer, const Config& config)
+      : observer_(observer),
+        leave_together_(config.interpolator.enabled),
+        quads_per_cycle_(static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {}
 
   /// Quad `number` of the burst that is the next to be counted.
   void add(const QuadEvent& quad, std::size_t number) {
@@ -39,7 +42,7 @@ class QuadQueue {
   /// Shows the quads of the bursts that were counted. `first_beat`: the cycle of each.
   void show(const std::vector<std::uint64_t>& first_beat) {
     for (Waiting& each : waiting_) {
-      each.quad.cycle = first_beat[each.burst] + each.number / quads_per_cycle_;
+      each.quad.cycle = first_beat[each.burst] + (leave_together_ ? 0 : each.number / quads_per_cycle_);
       observer_->quad(each.quad);
     }
     waiting_.clear();
@@ -53,6 +56,7 @@ class QuadQueue {
     std::size_t number;
   };
   PacketObserver* observer_;
+  bool leave_together_;
   std::uint64_t quads_per_cycle_;
   std::vector<Waiting> waiting_;
   std::size_t bursts_ = 0;
@@ -68,7 +72,7 @@ class InOrderRun {
         reader_(reader),
         walk_(walker_config(config)),
         walker_(walk_),
-        quads_(watch.observer, static_cast<std::uint64_t>(config.early_z.quads_per_cycle)) {
+        quads_(watch.observer, config) {
     result_.surfaces = make_surfaces(frame, config, watch);
     places_ = place_surfaces(result_.surfaces, config);
     const ZCacheShape shape = z_cache_shape(config);
@@ -78,6 +82,7 @@ class InOrderRun {
     if (reader != nullptr) {
       stream_.emplace(*reader);
       wants_tiles_ = reader->wants_tiles();
+      wants_live_ = reader->wants_live();
       wants_cycles_ = shows_cycles(watch, *reader);
       reader->begin(stream_surfaces(result_.surfaces), memory_lines(places_, shape));
     }
@@ -189,6 +194,12 @@ class InOrderRun {
     const passage::Tested tested = passage::z_test<TileSize>(triangle_, burst, *draw_, stored, codes_);
     passage::sink<TileSize>(coverage.mask, tested, coverage.tile_x, coverage.tile_y, triangle_.triangle,
                             *draw_, *surface_);
+    if (config_.interpolator.enabled) {
+      const std::uint64_t live = passage::interpolator<TileSize>(burst, tested, *draw_);
+      if (wants_live_) {
+        stream_->live(live);
+      }
+    }
     if (touches_depth_) {
       const int parts = config_.z_cache.parts;
       if (config_.hi_z.enabled) {
@@ -271,6 +282,7 @@ class InOrderRun {
 
   std::optional<StreamWriter> stream_;  ///< where somebody reads
   bool wants_tiles_ = false;
+  bool wants_live_ = false;
   bool wants_cycles_ = false;
   QuadQueue quads_;
   std::vector<std::uint64_t> burst_cycles_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "halfspace/machine/core.hpp"
 #include "halfspace/scene/frame.hpp"
@@ -13,6 +14,9 @@
 #include "halfspace/units/walk_order.hpp"
 
 namespace halfspace {
+
+/// An attribute at the four pixels of a quad, as in ShadedQuad.
+using QuadAttribute = std::array<std::int32_t, 16>;
 
 /// A quad as it leaves early_z.
 struct QuadEvent {
@@ -28,7 +32,10 @@ struct QuadEvent {
   std::uint8_t passed = 0;  ///< the same bits after early-Z
   std::uint8_t kept = 0;    ///< and after the shader, where the draw writes late
   std::array<std::uint32_t, 4> depth{};  ///< codes; 0 for helpers and where there is no depth surface
-  std::uint64_t cycle = 0;               ///< leaves early_z; 0 when untimed
+  /// Leaves early_z; with the interpolator: its burst does. 0 when untimed.
+  std::uint64_t cycle = 0;
+  /// With the interpolator, of a quad that has a sample that passed: its attributes, in order.
+  std::vector<QuadAttribute> attributes{};
 };
 
 /// A decision about a tile.

@@ -144,10 +144,13 @@ struct StreamView {
   std::span<const std::uint32_t> miss_burst;
   std::span<const StreamLate> late;
   std::span<const StreamTile> tiles;  ///< one a job; empty where the reader did not ask for them
-  bool continues_segment = false;     ///< the first segment began in the part before
-  bool continues_triangle = false;    ///< so did the first triangle
-  bool open_segment = false;          ///< the last segment goes on in the next part
-  bool open_triangle = false;         ///< so does the last triangle
+  /// One a burst: bit i: its quad i, in the order in which they leave, asks the interpolator for attributes.
+  /// Empty where the reader did not ask for them.
+  std::span<const std::uint64_t> live;
+  bool continues_segment = false;   ///< the first segment began in the part before
+  bool continues_triangle = false;  ///< so did the first triangle
+  bool open_segment = false;        ///< the last segment goes on in the next part
+  bool open_triangle = false;       ///< so does the last triangle
 };
 
 /// Reads the stream of a frame while the units run.
@@ -156,6 +159,7 @@ class StreamReader {
   virtual ~StreamReader() = default;
   [[nodiscard]] virtual bool wants_accesses() const { return false; }
   [[nodiscard]] virtual bool wants_tiles() const { return false; }
+  [[nodiscard]] virtual bool wants_live() const { return false; }
   /// It knows in which cycle a burst leaves early_z.
   [[nodiscard]] virtual bool has_time() const { return false; }
 

@@ -27,7 +27,8 @@ namespace halfspace {
   S(EdgeEvaluator, edge_evaluator, Job,      "no_tile", "no_credit")                                           \
   S(QuadGenerator, quad_generator, Job,      "no_coverage", "no_credit")                                       \
   S(ZLookup,       z_lookup,       Burst,    "no_burst", "pending_full", "write_back", "fill_buffers", "request") \
-  S(ZTest,         z_test,         Burst,    "no_burst", "late", "fill", "write_buffer", "no_credit")
+  S(ZTest,         z_test,         Burst,    "no_burst", "late", "fill", "write_buffer", "no_credit")           \
+  S(Interpolator,  interpolator,   Burst,    "no_burst", "no_credit")
 
 /// L(Identifier, name, key of its capacity, latency, where its packets can be held back). The links, by the unit that
 /// fills them; the queue and the pending store are inside setup and early_z. The latency is that of the unit: cycles
@@ -44,7 +45,9 @@ namespace halfspace {
   L(QuadGenerator, quad_generator,  quad_generator.fifo,  2,                     StallPoint::kQuadGenerator)   \
   L(EarlyZPending, early_z_pending, early_z.pending,      config.depth.latency + 5 /* lookup and store */,     \
     std::nullopt)                                                                                            \
-  L(EarlyZ,        early_z,         early_z.fifo,         2,                     StallPoint::kSink)
+  L(EarlyZ,        early_z,         early_z.fifo,         2,                     StallPoint::kSink)            \
+  L(Interpolator,  interpolator,    interpolator.fifo,    config.interpolator.bits / 2 + 22 /* E at the quad */, \
+    StallPoint::kInterpolator)
 
 /// The same for the buffers of the memory side: FIFOs with credits, but no links.
 #define HALFSPACE_BUFFERS(B)                                                                                   \
@@ -52,7 +55,7 @@ namespace halfspace {
   B(WriteBuffers,  write_buffers,   z_cache.write_buffers)
 
 /// P(Identifier, name): packet n of a link counts as visible so many cycles later; triangle n of the source
-/// arrives, and burst n at the sink is taken, so many cycles later.
+/// arrives, and burst n is taken by what follows early_z, so many cycles later.
 #define HALFSPACE_STALL_POINTS(P)                                                                            \
   P(Source,        source)                                                                                   \
   P(Setup,         setup)                                                                                    \
@@ -61,7 +64,8 @@ namespace halfspace {
   P(TileWalker,    tile_walker)                                                                              \
   P(EdgeEvaluator, edge_evaluator)                                                                           \
   P(QuadGenerator, quad_generator)                                                                           \
-  P(Sink,          sink)
+  P(Sink,          sink)                                                                                     \
+  P(Interpolator,  interpolator)
 
 /// E(Identifier, meaning): what can happen in a cycle of the RTL, a bit each in the probe of its bench.
 #define HALFSPACE_EVENTS(E)                                                                                  \
@@ -134,6 +138,7 @@ inline constexpr std::size_t kTestLate = stall_reason(Stage::kZTest, "late");
 inline constexpr std::size_t kTestFill = stall_reason(Stage::kZTest, "fill");
 inline constexpr std::size_t kTestWriteBuffer = stall_reason(Stage::kZTest, "write_buffer");
 inline constexpr std::size_t kTestNoCredit = stall_reason(Stage::kZTest, "no_credit");
+inline constexpr std::size_t kInterpolatorNoCredit = stall_reason(Stage::kInterpolator, "no_credit");
 }  // namespace stall
 
 enum class StallPoint : std::uint8_t { HALFSPACE_STALL_POINTS(HALFSPACE_ENUMERATOR) };

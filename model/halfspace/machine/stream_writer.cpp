@@ -28,6 +28,7 @@ void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycl
                 .miss_burst = z_.burst,
                 .late = z_.late,
                 .tiles = tiles_,
+                .live = live_,
                 .continues_segment = continues_segment_,
                 .continues_triangle = continues_triangle_,
                 .open_segment = in_segment_,
@@ -44,6 +45,7 @@ void StreamWriter::give(bool in_triangle, std::vector<std::uint64_t>* burst_cycl
   z_.burst.clear();
   z_.late.clear();
   tiles_.clear();
+  live_.clear();
   accesses_ = 0;
   continues_segment_ = in_segment_;
   continues_triangle_ = in_triangle;

@@ -60,6 +60,8 @@ class StreamWriter {
   void access(const StreamAccess& access) { packets_.accesses.push_back(access); }
   /// Where the last job is, for readers that want tiles.
   void tile(const StreamTile& tile) { tiles_.push_back(tile); }
+  /// Of the last burst, for readers that want them: see StreamView::live.
+  void live(std::uint64_t quads) { live_.push_back(quads); }
   /// The triangle is done, with so many empty blocks after its last job.
   void walked(std::uint32_t empty) { packets_.triangles.back().empty_after = empty; }
 
@@ -79,6 +81,7 @@ class StreamWriter {
   PacketStream packets_;
   ZMissStream z_;
   std::vector<StreamTile> tiles_;
+  std::vector<std::uint64_t> live_;
   std::uint32_t accesses_ = 0;  ///< of the part
   std::uint32_t seen_ = 0;      ///< triangles of the segment, to the last that was drawn
   bool in_segment_ = false;

@@ -17,6 +17,7 @@ void ThreadedReader::Part::copy(const StreamView& part) {
   keep(z.burst, view.miss_burst);
   keep(z.late, view.late);
   keep(tiles, view.tiles);
+  keep(live, view.live);
 }
 
 ThreadedReader::~ThreadedReader() {

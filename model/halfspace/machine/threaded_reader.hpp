@@ -27,6 +27,7 @@ class ThreadedReader final : public StreamReader {
 
   [[nodiscard]] bool wants_accesses() const override { return reader_.wants_accesses(); }
   [[nodiscard]] bool wants_tiles() const override { return reader_.wants_tiles(); }
+  [[nodiscard]] bool wants_live() const override { return reader_.wants_live(); }
   [[nodiscard]] bool has_time() const override { return reader_.has_time(); }
 
   void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) override;
@@ -42,6 +43,7 @@ class ThreadedReader final : public StreamReader {
     PacketStream packets;
     ZMissStream z;
     std::vector<StreamTile> tiles;
+    std::vector<std::uint64_t> live;
     StreamView view;  ///< of the lists above
     std::vector<ZFlush> dirty;
     bool end = false;

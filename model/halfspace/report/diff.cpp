@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include "halfspace/numerics/error.hpp"
 #include "halfspace/report/npy.hpp"
@@ -22,11 +25,27 @@ using StatsJson = nlohmann::json;
 /// One field of a record, or the whole element of a plain array.
 struct Field {
   std::string name;
-  char kind = 'u';       ///< u unsigned, f float
+  char kind = 'u';       ///< u unsigned, i signed, f float
   std::size_t size = 0;  ///< bytes of one value
   std::size_t count = 1;
   std::size_t offset = 0;
 };
+
+/// Values of a field whose type is followed by `text`: as many as ",(2,4,4)" says, else one.
+std::size_t values_of(std::string_view text) {
+  if (!text.starts_with(",(")) {
+    return 1;
+  }
+  std::size_t count = 1;
+  for (text.remove_prefix(2); !text.empty() && text[0] >= '0' && text[0] <= '9';) {
+    std::size_t extent = 0;
+    text.remove_prefix(static_cast<std::size_t>(
+        std::from_chars(text.data(), text.data() + text.size(), extent).ptr - text.data()));
+    count *= extent;
+    text.remove_prefix(text.starts_with(',') ? 1 : 0);
+  }
+  return count;
+}
 
 /// Understands '<u4' and [('draw','<u4'),('depth','<u4',(4,)),...], the dtypes that a run writes.
 std::vector<Field> parse_descr(const std::string& descr, const std::string& file) {
@@ -50,9 +69,7 @@ std::vector<Field> parse_descr(const std::string& descr, const std::string& file
     quoted.push_back(descr.substr(at + 1, end - at - 1));
     at = end + 1;
     if (quoted.size() % 2 == 0) {
-      const bool repeated = descr.compare(at, 2, ",(") == 0;
-      add(quoted[quoted.size() - 2], quoted.back(),
-          repeated ? std::strtoul(descr.c_str() + at + 2, nullptr, 10) : 1);
+      add(quoted[quoted.size() - 2], quoted.back(), values_of(std::string_view(descr).substr(at)));
     }
   }
   if (quoted.size() == 1) {

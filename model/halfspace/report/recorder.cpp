@@ -10,7 +10,8 @@ namespace halfspace {
 namespace {
 
 #pragma pack(push, 1)
-/// A record of quads.npy. Where a pixel has several samples a byte follows, the number of the sample.
+/// A record of quads.npy. Where a pixel has several samples a byte follows, the number of the sample; where
+/// the machine has the interpolator, the attributes of the quad: 4 pixels of 4 components each.
 struct QuadRecord {
   std::uint32_t draw, triangle, surface, x, y;
   std::uint8_t mask, passed;
@@ -40,10 +41,15 @@ void append(NpyWriter& file, const Record& record) {
 
 }  // namespace
 
-Recorder::Recorder(const Options& options) : with_sample_(options.samples > 1) {
+Recorder::Recorder(const Options& options)
+    : with_sample_(options.samples > 1), attributes_(static_cast<std::size_t>(options.attributes)) {
   if (options.quads) {
-    const std::string descr = fmt::format("{}{}]", kQuadDescr, with_sample_ ? kSampleDescr : "");
-    quads_.emplace(*options.quads, descr, sizeof(QuadRecord) + (with_sample_ ? 1 : 0));
+    const std::string attributes =
+        attributes_ != 0 ? fmt::format(",('attributes','<i4',({},4,4))", attributes_) : "";
+    const std::string descr =
+        fmt::format("{}{}{}]", kQuadDescr, with_sample_ ? kSampleDescr : "", attributes);
+    quads_.emplace(*options.quads, descr,
+                   sizeof(QuadRecord) + (with_sample_ ? 1 : 0) + attributes_ * sizeof(QuadAttribute));
   }
   if (options.tiles) {
     tiles_.emplace(*options.tiles, kTileDescr, sizeof(TileRecord));
@@ -63,6 +69,9 @@ void Recorder::quad(const QuadEvent& event) {
                              event.cycle});
   if (with_sample_) {
     append(*quads_, event.sample);
+  }
+  for (std::size_t i = 0; i < attributes_; ++i) {
+    append(*quads_, i < event.attributes.size() ? event.attributes[i] : QuadAttribute{});
   }
 }
 

@@ -1,6 +1,7 @@
 /// What a run leaves of its packets: quads.npy and tiles.npy.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 
@@ -16,6 +17,7 @@ class Recorder : public PacketObserver {
     std::optional<std::filesystem::path> quads;  ///< file to write
     std::optional<std::filesystem::path> tiles;  ///< file to write
     int samples = 1;                             ///< of a pixel; with several a quad's record says which
+    int attributes = 0;                          ///< that the interpolator gives of a quad
   };
 
   explicit Recorder(const Options& options);
@@ -30,6 +32,7 @@ class Recorder : public PacketObserver {
 
  private:
   bool with_sample_;
+  std::size_t attributes_;
   std::optional<NpyWriter> quads_;
   std::optional<NpyWriter> tiles_;
 };

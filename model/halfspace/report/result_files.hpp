@@ -6,12 +6,12 @@
 #include <string>
 
 #include "halfspace/config/config.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/report/output_folder.hpp"
 #include "halfspace/report/what_if.hpp"
 #include "halfspace/run/run_result.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/shade/picture_filter.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "halfspace/machine/vertex_attributes.hpp"
 #include "halfspace/scene/mesh_attributes.hpp"
 #include "halfspace/scene/srgb.hpp"
 #include "halfspace/shade/mip_map.hpp"
@@ -22,27 +23,6 @@ namespace {
 
 constexpr float kAmbient = 0.06f;  // light that comes from everywhere
 constexpr float kUnit = 1.0f / (1 << kAttributeFraction);
-
-/// An attribute at the three vertices of a triangle; none where one of them has none.
-using AtVertices = std::optional<std::array<glm::dvec4, 3>>;
-
-glm::dvec4 widened(const glm::vec2& v) { return {v.x, v.y, 0, 0}; }
-glm::dvec4 widened(const glm::vec3& v) { return {v.x, v.y, v.z, 0}; }
-glm::dvec4 widened(const glm::vec4& v) { return v; }
-
-/// `which`: by corner, the value's number. `corner`: the first of the triangle.
-template <typename Value>
-AtVertices at_vertices(const std::vector<Value>& values, const std::vector<std::uint32_t>& which,
-                       std::size_t corner) {
-  std::array<glm::dvec4, 3> found;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t number = which[corner + i];
-    if (number >= values.size()) return std::nullopt;
-    found[i] = widened(values[number]);
-    if (!std::isfinite(found[i].x + found[i].y + found[i].z + found[i].w)) return std::nullopt;
-  }
-  return found;
-}
 
 /// One triangle of the frame, and all that its pixels need. Lines, points, triangles that are drawn as such,
 /// and those without area, which conservative rasterization draws, have one colour, that of their first
@@ -206,7 +186,7 @@ class Shader {
     const AttributePlanes planes(FrontEnd(frame_, draw, DepthFormat::kNone, sub_pixel_bits_),
                                  triangle - first, sub_pixel_bits_);
     if (planes.size() == 0) return outline(triangle, draw, triangle - first, command - 1);
-    const std::size_t corner = draw.first_index + std::size_t{3} * (triangle - first);
+    const std::size_t corner = first_corner(draw, triangle - first);
     const auto& uv_of = attributes_.uv_of.empty() ? attributes_.vertex_of : attributes_.uv_of;
     const auto& normal_of = attributes_.normal_of.empty() ? attributes_.vertex_of : attributes_.normal_of;
     Visible out{.triangle = triangle,
@@ -231,9 +211,7 @@ class Shader {
 
   [[nodiscard]] Visible outline(std::uint32_t visible, const Command& draw, std::uint32_t primitive,
                                 std::uint32_t part) const {
-    const bool strip = draw.primitive == Primitive::kLineStrip;
-    const std::size_t corner = draw.first_index + std::size_t{strip ? 2 : draw.indices_each()} * primitive;
-    const std::uint32_t vertex = attributes_.vertex_of[corner];
+    const std::uint32_t vertex = attributes_.vertex_of[first_corner(draw, primitive)];
     glm::vec4 color = material_of(part).base_color;
     if (vertex < attributes_.colors.size() && std::isfinite(attributes_.colors[vertex].r)) {
       color *= attributes_.colors[vertex];

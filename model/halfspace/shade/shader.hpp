@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
+#include "halfspace/machine/attribute_planes.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/scene/frame.hpp"
-#include "halfspace/shade/attribute_planes.hpp"
 #include "halfspace/shade/picture.hpp"
 
 namespace halfspace {

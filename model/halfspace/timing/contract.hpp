@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -42,6 +43,13 @@ inline constexpr std::size_t kMostCredits = 64;
 
 /// Beats of a burst of `quads` on a link that is `width` quads wide.
 constexpr int beats(int quads, int width) { return (quads + width - 1) / width; }
+
+/// Packets that the interpolator makes of a beat: the quads of a burst from number `first` on, `width` of
+/// them. `live`: bit i: quad i of the burst asks for attributes.
+constexpr std::uint64_t shaded_packets(std::uint64_t live, int first, int width, int attributes) {
+  const std::uint64_t beat = live >> first & ((std::uint64_t{1} << width) - 1);
+  return static_cast<std::uint64_t>(std::popcount(beat)) * static_cast<std::uint64_t>(attributes);
+}
 
 /// Cycles that `bytes` take on a channel of memory.
 constexpr int transfer_cycles(int bytes, int bytes_per_cycle) { return std::max(1, bytes / bytes_per_cycle); }

@@ -1,6 +1,7 @@
 /// The cycles of a frame and of its draws, for engines whose stages work on different draws at the same time.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -22,10 +23,11 @@ class CycleBook {
     }
   }
 
-  /// The last beat of a burst is in the sink.
+  /// The last beat of a burst is in the sink, or in the interpolator before it.
   void burst_left(const DrawContext& draw, std::uint64_t cycle) {
     if (!draw.is_clear()) {
-      of(draw.draw).end = cycle;
+      std::uint64_t& end = of(draw.draw).end;
+      end = std::max(end, cycle);
     }
   }
 
@@ -37,7 +39,7 @@ class CycleBook {
     frame_.draws.resize(draws);
     std::uint64_t end = 0;
     for (DrawCycles& draw : frame_.draws) {
-      draw.end = end = draw.end == 0 ? end : draw.end;  // 0: it had no burst
+      draw.end = end = std::max(end, draw.end);  // 0: it had no burst
     }
     return std::exchange(frame_, {});
   }

@@ -89,7 +89,8 @@ struct FrameCycles {
   T(g,      "quad_generator: every coverage")                \
   T(f,      "z_lookup: every burst")                         \
   T(b,      "z_test: every burst")                           \
-  T(y,      "sink: every burst")
+  T(y,      "sink, or interpolator: every burst")            \
+  T(s,      "sink: every quad of the interpolator")
 // clang-format on
 
 /// When the stages took the packets of a run, one entry a packet.

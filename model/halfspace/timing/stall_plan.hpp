@@ -11,6 +11,9 @@
 namespace halfspace {
 
 struct StallPlan {
+  /// Points whose packets share a stream of numbers; the next have that of the next seed.
+  static constexpr std::uint64_t kStreams = 8;
+
   struct Rate {
     std::uint32_t percent = 0;     ///< of the packets that are held back, 0 to 100
     std::uint32_t max_cycles = 0;  ///< each for 1 to so many cycles
@@ -35,7 +38,8 @@ struct StallPlan {
     if (!here.any()) {
       return 0;
     }
-    const std::uint64_t z = SplitMix64::at(seed, n * kStallPoints + static_cast<std::uint64_t>(point)).next();
+    const auto i = static_cast<std::uint64_t>(point);
+    const std::uint64_t z = SplitMix64::at(seed + i / kStreams, n * kStreams + i % kStreams).next();
     return (z & 0xFFFFFFFFu) % 100 < here.percent ? 1 + (z >> 32) % here.max_cycles : 0;
   }
 };

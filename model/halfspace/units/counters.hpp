@@ -69,6 +69,12 @@ namespace halfspace {
   C(z_evicted,         "lines written back because others took their place") \
   C(bytes_read,        "fetched from memory")                               \
   C(bytes_written,     "written back, the flush at the end not counted")
+
+#define HALFSPACE_INTERPOLATOR_COUNTERS(C)                                    \
+  C(quads,             "quads with a sample that passed: interpolated")       \
+  C(quads_killed,      "quads without: nothing leaves for them")              \
+  C(attributes,        "packets: a quad with one attribute each")             \
+  C(helpers,           "samples of the interpolated quads that did not pass")
 // clang-format on
 
 HALFSPACE_COUNTER_STRUCT(FrontEndCounters, HALFSPACE_FRONT_END_COUNTERS)
@@ -79,6 +85,7 @@ HALFSPACE_COUNTER_STRUCT(TileWalkerCounters, HALFSPACE_TILE_WALKER_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EdgeEvaluatorCounters, HALFSPACE_EDGE_EVALUATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(QuadGeneratorCounters, HALFSPACE_QUAD_GENERATOR_COUNTERS)
 HALFSPACE_COUNTER_STRUCT(EarlyZCounters, HALFSPACE_EARLY_Z_COUNTERS)
+HALFSPACE_COUNTER_STRUCT(InterpolatorCounters, HALFSPACE_INTERPOLATOR_COUNTERS)
 
 /// All counters of a draw, a surface or a frame.
 struct Counters {
@@ -90,6 +97,7 @@ struct Counters {
   EdgeEvaluatorCounters edge_evaluator;
   QuadGeneratorCounters quad_generator;
   EarlyZCounters early_z;
+  InterpolatorCounters interpolator;
 
   /// Calls visit(unit, member) for each unit.
   template <class Visit>
@@ -102,6 +110,7 @@ struct Counters {
     visit("edge_evaluator", &Counters::edge_evaluator);
     visit("quad_generator", &Counters::quad_generator);
     visit("early_z", &Counters::early_z);
+    visit("interpolator", &Counters::interpolator);
   }
 
   Counters& operator+=(const Counters& other) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "halfspace/machine/attribute_source.hpp"
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/packet_observer.hpp"
@@ -83,6 +84,10 @@ void show_quads(const QuadBurst& burst, const Tested& tested, const std::uint32_
     for (int i = 0; i < 4; ++i) {
       const int sample = (quad.y + i / 2) * TileSize + quad.x + i % 2;
       event.depth[static_cast<std::size_t>(i)] = (quad.mask >> i & 1) != 0 ? codes[sample] : 0;
+    }
+    if (draw.source != nullptr && event.passed != 0) {
+      event.attributes = draw.source->quad(triangle.triangle, triangle.piece, static_cast<int>(event.x),
+                                           static_cast<int>(event.y), event.sample, event.passed);
     }
     show(event, number++);
   });

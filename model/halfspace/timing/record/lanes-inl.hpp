@@ -164,6 +164,7 @@ class LaneCredits {
 
 /// The recurrence with a machine in each lane of 32 bits.
 struct WideLanes {
+  static constexpr bool kInterpolates = false;
   using Time = Lanes<std::uint32_t>;
   using SetupTime = Time;
   using Credits = LaneCredits<Time>;
@@ -275,6 +276,7 @@ class LaneClock {
 
 /// The recurrence with a machine in each lane of 16 bits.
 struct NarrowLanes {
+  static constexpr bool kInterpolates = false;
   using Time = Lanes<std::uint16_t>;
   using SetupTime = PairLanes;
   using Credits = LaneCredits<Time>;

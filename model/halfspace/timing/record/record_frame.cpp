@@ -1,4 +1,5 @@
 #include "halfspace/core/run_core.hpp"
+#include "halfspace/numerics/error.hpp"
 #include "halfspace/timing/record/frame_record.hpp"
 
 namespace halfspace {
@@ -52,6 +53,9 @@ class RecordReader final : public StreamReader {
 }  // namespace
 
 FrameRecord record_frame(const Frame& frame, const Config& config, const Watch& watch) {
+  if (config.interpolator.enabled) {
+    throw OptionError("configuration key 'interpolator.enabled' is true; legal in a record: false");
+  }
   FrameRecord record;
   record.name = frame.name;
   record.config = config;

@@ -156,6 +156,7 @@ class Cores<Policy, 0> {
 template <class Policy, std::size_t kCount>
 class Pass {
  public:
+  static constexpr bool kInterpolates = Policy::kInterpolates;
   using Core = RecurrenceCore<Policy, NoStalls, NoProbe>;
   using Machines = LaneMachines<Policy>;
 

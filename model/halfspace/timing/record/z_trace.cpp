@@ -168,7 +168,8 @@ StreamView whole_stream(const FrameRecord& record, const ZTrace& trace) {
           .misses = trace.z.misses,
           .miss_burst = trace.z.burst,
           .late = trace.z.late,
-          .tiles = {}};
+          .tiles = {},
+          .live = {}};
 }
 
 }  // namespace halfspace

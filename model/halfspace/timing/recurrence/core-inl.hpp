@@ -21,10 +21,10 @@
 #include <array>
 #include <bit>
 #include <span>
-#include <utility>
 
 #include "halfspace/machine/packet_stream.hpp"
 #include "halfspace/timing/cycle_stats.hpp"
+#include "halfspace/timing/recurrence/interpolation-inl.hpp"
 #include "halfspace/timing/recurrence/machine.hpp"
 #include "halfspace/timing/stall_plan.hpp"
 #include "halfspace/units/hi_z.hpp"
@@ -44,6 +44,7 @@ struct NoStalls {
 template <class TimePolicy, class Stalls, class Probe>
 class RecurrenceCore {
  public:
+  static constexpr bool kInterpolates = TimePolicy::kInterpolates;
   using T = typename TimePolicy::Time;
   using S = typename TimePolicy::SetupTime;
   using Clock = typename TimePolicy::Clock;
@@ -188,14 +189,17 @@ class RecurrenceCore {
       seen = line.slot + 1;
       write(scan_next, line.bytes);
     }
-    return later(clock_.setup(scan_next + (lines - seen)), clock_.setup(later(written_next_, y_next_)));
+    return later(clock_.setup(scan_next + (lines - seen)),
+                 clock_.setup(later(written_next_, shaded_.taken_next(y_next_))));
   }
 
   /// What the probe wants to know where a draw ends.
   [[nodiscard]] Progress<T> progress() const {
-    return {.free = {decide_next_, block_next_, hi_z_next_, tile_next_, e_next_, g_next_, f_next_, b_next_},
-            .sink_next = y_next_,
-            .packets = {culled_, triangles_, blocks_, passed_, jobs_, jobs_, bursts_, bursts_, bursts_}};
+    return {.free = {decide_next_, block_next_, hi_z_next_, tile_next_, e_next_, g_next_, f_next_, b_next_,
+                     kInterpolates ? y_next_ : T{}},
+            .sink_next = shaded_.taken_next(y_next_),
+            .packets = {culled_, triangles_, blocks_, passed_, jobs_, jobs_, bursts_, bursts_, bursts_,
+                        shaded_.packets()}};
   }
 
   /// First cycle of beat 0 of the last burst at the sink.
@@ -333,7 +337,8 @@ class RecurrenceCore {
 
   /// Of all times behind setup.
   [[nodiscard]] HWY_INLINE T latest() const {
-    return later(later(in_pipe(), late_next_), later(y_next_, later(filled_next_, written_next_)));
+    return later(later(in_pipe(), late_next_),
+                 later(shaded_.taken_next(y_next_), later(filled_next_, written_next_)));
   }
 
   /// Of the stages from block_walker to z_test.
@@ -438,7 +443,7 @@ class RecurrenceCore {
       swap(misses, b);
     }
     y_ = later(b + (kTestLatency + stall(StallPoint::kSink, bursts_)), y_next_);
-    y_next_ = y_ + beats;
+    y_next_ = shaded_.take(work, beats, y_next_, y_, *memory_, stalls_, *probe_);
     if constexpr (Probe::kLooks) {
       probe_->link(Link::kEarlyZ, bursts_, b, y_next_);
       probe_->note(&PacketTimes::y, y_);
@@ -446,7 +451,7 @@ class RecurrenceCore {
     fifo<Fifo::kEarlyZ>().give(bursts_++, y_next_);
     if (HWY_UNLIKELY(work.late)) {
       memory_->late.set(static_cast<std::uint32_t>(late_given_ % kLateRing),
-                        y_next_ + machine().late_latency);
+                        (kInterpolates ? shaded_.next() : y_next_) + machine().late_latency);
       memory_->late_quads[late_given_++ % kLateRing] = static_cast<std::uint8_t>(work.quads);
     }
   }
@@ -573,7 +578,8 @@ class RecurrenceCore {
   T late_next_{};   ///< the cycle after
   T written_next_{};
   T y_{};
-  T y_next_{};
+  T y_next_{};  ///< of the sink, or of the interpolator before it
+  Interpolation<TimePolicy> shaded_;
   Clock clock_{};
   bool lost_ = false;
 

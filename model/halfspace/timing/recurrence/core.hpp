@@ -13,8 +13,9 @@ using HWY_NAMESPACE::replay;
 using HWY_NAMESPACE::ReplayHooks;
 
 /// Of the machine of `config`, whose surfaces take so many lines of memory.
-inline RecurrenceMemory<OneMachine> recurrence_memory(const Config& config, std::uint32_t memory_lines) {
-  RecurrenceMemory<OneMachine> memory;
+template <class TimePolicy = OneMachine>
+RecurrenceMemory<TimePolicy> recurrence_memory(const Config& config, std::uint32_t memory_lines) {
+  RecurrenceMemory<TimePolicy> memory;
   memory.machine = machine(config);
   const std::array<int, kFifos> capacity = capacities(config);
   for (std::size_t i = 0; i < kFifos; ++i) {

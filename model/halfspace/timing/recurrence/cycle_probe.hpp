@@ -144,9 +144,10 @@ class CycleProbe {
   /// The reason that gets what is left: all cycles in which the stage is not busy, and does not wait for
   /// anything but a credit of the link that it fills.
   static constexpr std::size_t no_credit(Stage which) {
-    constexpr std::array kReason{stall::kSetupNoCredit,     stall::kBlockNoCredit, stall::kHiZNoCredit,
-                                 stall::kTileNoCredit,      stall::kEdgeNoCredit,  stall::kQuadNoCredit,
-                                 stall::kLookupPendingFull, stall::kTestNoCredit};
+    constexpr std::array kReason{
+        stall::kSetupNoCredit,     stall::kBlockNoCredit, stall::kHiZNoCredit,
+        stall::kTileNoCredit,      stall::kEdgeNoCredit,  stall::kQuadNoCredit,
+        stall::kLookupPendingFull, stall::kTestNoCredit,  stall::kInterpolatorNoCredit};
     static_assert(kReason.size() == kStages);
     return kReason[static_cast<std::size_t>(which)];
   }

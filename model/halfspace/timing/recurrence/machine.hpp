@@ -26,6 +26,7 @@ struct JobWork {
   std::span<const ZMiss> misses{};  ///< the parts of its tile that the z cache did not have
   std::uint32_t late_done = 0;      ///< late writes of the frame that are done before it is tested
   bool late = false;                ///< it leaves one
+  std::uint64_t live = 0;           ///< quads that ask the interpolator, see StreamView::live
 };
 
 /// Quads of the largest tile.
@@ -58,6 +59,9 @@ struct Machine {
   T decode_latency;  ///< from the last bytes of a line until it is there
   T late_latency;    ///< from the cycle after the last beat at the sink until a late write may be done
   T encode_latency;  ///< from the write buffer until memory may take a line
+  int test_width = 1;
+  int attributes = 0;  ///< of a quad
+  std::uint64_t shade_latency = 0;
 };
 
 inline Machine<std::uint64_t> machine(const Config& config) {
@@ -80,6 +84,9 @@ inline Machine<std::uint64_t> machine(const Config& config) {
   m.decode_latency = static_cast<std::uint64_t>(decode_cycles(config));
   m.late_latency = static_cast<std::uint64_t>(config.late_z.latency);
   m.encode_latency = static_cast<std::uint64_t>(encode_cycles(config));
+  m.test_width = config.early_z.quads_per_cycle;
+  m.attributes = config.interpolator.attributes;
+  m.shade_latency = static_cast<std::uint64_t>(latency(Link::kInterpolator, config));
   return m;
 }
 
@@ -137,12 +144,18 @@ struct FixedClock {
 
 /// The recurrence of a single machine.
 struct OneMachine {
+  static constexpr bool kInterpolates = false;
   using Time = std::uint64_t;
   using SetupTime = Time;
   using Credits = halfspace::Credits;
   using SetupCredits = Credits;
   using Table = TimeTable;
   using Clock = FixedClock;
+};
+
+/// The same with the interpolator behind early_z.
+struct InterpolatingMachine : OneMachine {
+  static constexpr bool kInterpolates = true;
 };
 
 /// What a core reads and writes in places that it computes: apart from its times, which the compiler then

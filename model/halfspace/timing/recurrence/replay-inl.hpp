@@ -40,6 +40,7 @@ struct StreamCursor {
   const ZMiss* miss;
   const std::uint32_t* miss_burst;
   const StreamLate* late;
+  const std::uint64_t* live = nullptr;  ///< only of machines with the interpolator
   std::uint32_t access = 0;
   bool continues_triangle;
 };
@@ -83,6 +84,9 @@ HWY_NOINLINE void replay_triangles(const StreamView& part, const StreamSegment& 
         if (segment.touches_depth != 0 && work.quads != 0) {
           next_access(at, work);
         }
+        if constexpr (Core::kInterpolates) {
+          work.live = work.quads != 0 ? *at.live++ : 0;
+        }
         hooks.job(static_cast<std::size_t>(at.job - part.jobs.data()));
         core.job(work);
         if (work.quads != 0) {
@@ -118,6 +122,7 @@ void replay(const StreamView& part, Core& core, Hooks& hooks, bool& bursts, cons
                   .miss = part.misses.data(),
                   .miss_burst = part.miss_burst.data(),
                   .late = part.late.data(),
+                  .live = part.live.data(),
                   .continues_triangle = part.continues_triangle};
   for (const StreamSegment& segment : part.segments) {
     if (segment.kind == StreamSegment::Kind::kFastClear) {

@@ -10,17 +10,18 @@ namespace halfspace {
 namespace {
 
 /// Times the stream of a frame while the units run.
-template <class Stalls, bool kEach>
+template <class TimePolicy, class Stalls, bool kEach>
 class RecurrenceReader final : public StreamReader {
  public:
   RecurrenceReader(const Config& config, const Stalls& stalls, CycleObserver* observer, PacketTimes* times)
       : config_(config),
         observed_(observer != nullptr),
         probe_(capacities(config), times, observer),
-        memory_(recurrence_memory(config, 0)),
+        memory_(recurrence_memory<TimePolicy>(config, 0)),
         core_(memory_, stalls, probe_) {}
 
   [[nodiscard]] bool wants_tiles() const override { return observed_; }
+  [[nodiscard]] bool wants_live() const override { return TimePolicy::kInterpolates; }
   [[nodiscard]] bool has_time() const override { return true; }
 
   void begin(std::span<const StreamSurface> surfaces, std::uint32_t memory_lines) override {
@@ -70,8 +71,8 @@ class RecurrenceReader final : public StreamReader {
   const Config& config_;
   bool observed_;
   CycleProbe<kEach> probe_;
-  RecurrenceMemory<OneMachine> memory_;
-  RecurrenceCore<OneMachine, Stalls, CycleProbe<kEach>> core_;
+  RecurrenceMemory<TimePolicy> memory_;
+  RecurrenceCore<TimePolicy, Stalls, CycleProbe<kEach>> core_;
   std::vector<std::uint64_t> clear_cycles_;  ///< by surface
   std::uint32_t draws_ = 0;
   bool in_draw_ = false;
@@ -79,12 +80,12 @@ class RecurrenceReader final : public StreamReader {
   std::uint64_t cycles_ = 0;
 };
 
-template <bool kEach, class Stalls>
+template <class TimePolicy, bool kEach, class Stalls>
 TimedResult run_with(const Frame& frame, const Config& config, const EngineOptions& options,
                      const Stalls& stalls) {
   TimedResult result;
-  RecurrenceReader<Stalls, kEach> reader(config, stalls, options.observer,
-                                         options.packet_times ? &result.times : nullptr);
+  RecurrenceReader<TimePolicy, Stalls, kEach> reader(config, stalls, options.observer,
+                                                     options.packet_times ? &result.times : nullptr);
   result.frame = run_core(frame, config, options.watch, &reader);
   result.cycles = reader.finish();
   return result;
@@ -93,11 +94,14 @@ TimedResult run_with(const Frame& frame, const Config& config, const EngineOptio
 }  // namespace
 
 TimedResult run_recurrence(const Frame& frame, const Config& config, const EngineOptions& options) {
-  if (options.observer != nullptr || options.packet_times) {
-    return run_with<true>(frame, config, options, options.stalls);
+  if (config.interpolator.enabled) {
+    return run_with<InterpolatingMachine, true>(frame, config, options, options.stalls);
   }
-  return options.stalls.any() ? run_with<false>(frame, config, options, options.stalls)
-                              : run_with<false>(frame, config, options, NoStalls{});
+  if (options.observer != nullptr || options.packet_times) {
+    return run_with<OneMachine, true>(frame, config, options, options.stalls);
+  }
+  return options.stalls.any() ? run_with<OneMachine, false>(frame, config, options, options.stalls)
+                              : run_with<OneMachine, false>(frame, config, options, NoStalls{});
 }
 
 }  // namespace halfspace

@@ -28,6 +28,9 @@ std::vector<std::string> pipeline_arguments(const Config& machine) {
     config.raster.uncertainty = Config{}.raster.uncertainty;  // of nothing: no other RTL
   }
   config.raster.sample_positions = sample_pattern(machine);
+  if (config.interpolator.enabled) {
+    throw OptionError("configuration key 'interpolator.enabled' is true; legal in the RTL: false");
+  }
   std::vector<std::string> arguments;
   std::vector<std::string> parameters;
 #define NOTHING(...)

@@ -9,6 +9,7 @@
 #include "halfspace/timing/systemc/early_z.hpp"
 #include "halfspace/timing/systemc/edge_evaluator.hpp"
 #include "halfspace/timing/systemc/hi_z.hpp"
+#include "halfspace/timing/systemc/interpolator.hpp"
 #include "halfspace/timing/systemc/quad_generator.hpp"
 #include "halfspace/timing/systemc/setup.hpp"
 #include "halfspace/timing/systemc/sink.hpp"
@@ -38,6 +39,7 @@ struct RasterPipeline::Units {
         edge_link(run, Fifo::kEdgeEvaluator),
         quad_link(run, Fifo::kQuadGenerator),
         early_z_link(run, Fifo::kEarlyZ),
+        shaded_link(run, Fifo::kInterpolator),
         source("source", run, control),
         setup("setup", run),
         block_walker("block_walker", run),
@@ -46,7 +48,8 @@ struct RasterPipeline::Units {
         edge_evaluator("edge_evaluator", run),
         quad_generator("quad_generator", run, hi_z.returns),
         early_z("early_z", run, hi_z.returns, base),
-        sink("sink", run, early_z.test.answers) {
+        sink("sink", run, early_z.test.answers),
+        interpolator("interpolator", run, sink) {
     source.out(setup);
     source.depth(early_z.control);
     setup.out(setup_link);
@@ -63,7 +66,13 @@ struct RasterPipeline::Units {
     quad_generator.out(quad_link);
     early_z.lookup.in(quad_link);
     early_z.test.out(early_z_link);
-    sink.in(early_z_link);
+    if (run.config.interpolator.enabled) {
+      interpolator.in(early_z_link);
+      interpolator.out(shaded_link);
+      sink.shaded(shaded_link);
+    } else {
+      sink.in(early_z_link);
+    }
   }
 
   void begin_frame() {
@@ -74,6 +83,7 @@ struct RasterPipeline::Units {
     edge_evaluator.begin_frame();
     quad_generator.begin_frame();
     early_z.begin_frame();
+    interpolator.begin_frame();
     sink.begin_frame();
   }
 
@@ -84,6 +94,7 @@ struct RasterPipeline::Units {
   CreditLink<CoverageToken> edge_link;
   CreditLink<BurstToken> quad_link;
   CreditLink<TestedToken> early_z_link;
+  CreditLink<ShadedToken> shaded_link;
   Source source;
   Setup setup;
   BlockWalker block_walker;
@@ -93,6 +104,7 @@ struct RasterPipeline::Units {
   QuadGenerator quad_generator;
   EarlyZ early_z;
   Sink sink;
+  Interpolator interpolator;
 };
 
 RasterPipeline::RasterPipeline(const sc_core::sc_module_name& name, const Config& config, std::uint64_t base)
@@ -147,20 +159,21 @@ void RasterPipeline::begin_frame() {
   units_->begin_frame();
 }
 
-Cycle RasterPipeline::stages_idle_from() const {
+Cycle RasterPipeline::stages_idle_from(Stage last) const {
   Cycle from = 0;
-  for (const StageMeter* const meter : run_.meters) {
-    from = std::max(from, meter->next());
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(last); ++i) {
+    from = std::max(from, run_.meters[i]->next());
   }
   return from;
 }
 
 void RasterPipeline::write_all_late(Cycle since) {
-  late_next_ = units_->early_z.test.write_all_late(std::max({since, stages_idle_from(), hi_z_out()}));
+  late_next_ =
+      units_->early_z.test.write_all_late(std::max({since, stages_idle_from(Stage::kZTest), hi_z_out()}));
 }
 
 Cycle RasterPipeline::idle_from() const {
-  return std::max({units_->sink.next(), stages_idle_from(), late_next_});
+  return std::max({units_->sink.next(), stages_idle_from(Stage::kInterpolator), late_next_});
 }
 
 Cycle RasterPipeline::hi_z_out() const { return units_->hi_z.blocks_out(); }

@@ -74,8 +74,9 @@ class RasterPipeline : public sc_core::sc_module, private FrameControl {
   TimedResult take_result();
 
  private:
-  /// First cycle in which no stage has anything left to do but late writes; for when the pipe is empty.
-  [[nodiscard]] Cycle stages_idle_from() const;
+  /// First cycle in which no stage up to `last` has anything left to do but late writes; for when the pipe is
+  /// empty.
+  [[nodiscard]] Cycle stages_idle_from(Stage last) const;
   void begin_frame() override;
   void end_frame(Cycle cycles) override;
   [[nodiscard]] Cycle idle_from() const override;

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "halfspace/numerics/error.hpp"
@@ -96,11 +96,11 @@ class TraceFile {
 TimedResult run_systemc(const Frame& frame, const Config& config, const EngineOptions& options,
                         const SystemcOptions& systemc) {
   const SimulationContext context;
-  std::optional<TraceFile> trace;
+  std::unique_ptr<TraceFile> trace;
   Platform platform(frame, config);
   platform.pipeline.bind_frame(frame, options);
   if (!systemc.vcd.empty()) {
-    trace.emplace(systemc.vcd);
+    trace = std::make_unique<TraceFile>(systemc.vcd);
     platform.pipeline.trace_to(trace->get());
   }
   sc_core::sc_start();

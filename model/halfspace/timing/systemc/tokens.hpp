@@ -45,12 +45,19 @@ struct WriteToken {
   std::vector<std::uint32_t> codes;
 };
 
-/// early_z -> sink.
+/// early_z -> interpolator, or sink.
 struct TestedToken {
   DrawContext* draw = nullptr;
   BurstToken burst;
   passage::Tested result;
   std::vector<std::uint32_t> codes;  ///< of the tile, where quads are recorded
+};
+
+/// interpolator -> sink: a quad with one attribute.
+struct ShadedToken {
+  DrawContext* draw = nullptr;
+  bool ends_burst = false;
+  bool ends_late = false;  ///< and the burst leaves a late write
 };
 
 }  // namespace halfspace::systemc

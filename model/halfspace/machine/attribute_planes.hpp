@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "halfspace/numerics/sample_pattern.hpp"
 #include "halfspace/scene/front_end.hpp"
 #include "halfspace/units/link_packets.hpp"
 #include "halfspace/units/packets.hpp"
@@ -46,9 +47,13 @@ class AttributePlanes {
   [[nodiscard]] std::uint8_t mask(std::size_t piece, int x, int y) const;
 
   /// The packet for the interpolator. `mask`: pixels of the quad that are covered. `corners`: the attribute
-  /// at the triangle's three vertices.
+  /// at the triangle's three vertices. `sample`: of each pixel, where it is wanted.
   [[nodiscard]] AttributeQuad packet(std::size_t piece, int x, int y, std::uint8_t mask,
-                                     const std::array<glm::dvec4, 3>& corners, Interpolation how) const;
+                                     const std::array<glm::dvec4, 3>& corners, Interpolation how,
+                                     const SamplePosition& sample = {}) const;
+
+  /// The place, for the functions above, of triangle `number` of the fan that clipping made.
+  [[nodiscard]] std::size_t place_of(std::uint8_t number) const;
 
   /// What the unit makes of that packet.
   [[nodiscard]] QuadValues values(std::size_t piece, int x, int y, std::uint8_t mask,
@@ -65,11 +70,12 @@ class AttributePlanes {
     std::int64_t area2 = 0;
     std::array<FrontEnd::Corner, 3> corners;
     std::array<std::uint32_t, 3> q{};  ///< 1/w as float32, as parts of the largest
+    std::uint8_t number = 0;           ///< in the fan, of which those without area are left out
   };
 
   void add(const ScreenTriangle& screen, const std::array<FrontEnd::Corner, 3>& corners);
-  /// E of edge i at the pixel's centre.
-  [[nodiscard]] std::int64_t edge_at(const Edge& edge, int x, int y) const;
+  /// E of the edge at a sample of the pixel, its centre unless told.
+  [[nodiscard]] std::int64_t edge_at(const Edge& edge, int x, int y, const SamplePosition& sample = {}) const;
   [[nodiscard]] bool covers(const Piece& piece, int x, int y) const;
 
   int sub_pixel_bits_ = 0;

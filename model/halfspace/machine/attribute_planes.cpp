@@ -1,4 +1,4 @@
-#include "halfspace/shade/attribute_planes.hpp"
+#include "halfspace/machine/attribute_planes.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -28,7 +28,7 @@ AttributePlanes::AttributePlanes(const FrontEnd& front_end, std::uint32_t index,
 }
 
 void AttributePlanes::add(const ScreenTriangle& screen, const std::array<FrontEnd::Corner, 3>& corners) {
-  Piece piece{.edges = {}, .area2 = 0, .corners = corners};
+  Piece piece{.edges = {}, .area2 = 0, .corners = corners, .q = {}, .number = screen.piece};
   const auto& v = screen.v;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& from = v[(i + 1) % 3];
@@ -56,9 +56,15 @@ void AttributePlanes::add(const ScreenTriangle& screen, const std::array<FrontEn
   pieces_.push_back(piece);
 }
 
-std::int64_t AttributePlanes::edge_at(const Edge& edge, int x, int y) const {
-  const auto centre = [&](int pixel) { return (2 * std::int64_t{pixel} + 1) << (sub_pixel_bits_ - 1); };
-  return edge.e + edge.a * centre(x) + edge.b * centre(y);
+std::int64_t AttributePlanes::edge_at(const Edge& edge, int x, int y, const SamplePosition& sample) const {
+  const auto place = [&](int pixel, int sixteenths) {
+    return (std::int64_t{pixel} << sub_pixel_bits_) + sample_way(sixteenths, sub_pixel_bits_);
+  };
+  return edge.e + edge.a * place(x, sample.x) + edge.b * place(y, sample.y);
+}
+
+std::size_t AttributePlanes::place_of(std::uint8_t number) const {
+  return static_cast<std::size_t>(std::ranges::find(pieces_, number, &Piece::number) - pieces_.begin());
 }
 
 bool AttributePlanes::covers(const Piece& piece, int x, int y) const {
@@ -94,12 +100,13 @@ std::uint8_t AttributePlanes::mask(std::size_t piece, int x, int y) const {
 }
 
 AttributeQuad AttributePlanes::packet(std::size_t piece, int x, int y, std::uint8_t mask,
-                                      const std::array<glm::dvec4, 3>& corners, Interpolation how) const {
+                                      const std::array<glm::dvec4, 3>& corners, Interpolation how,
+                                      const SamplePosition& sample) const {
   const Piece& of = pieces_[piece];
   AttributeQuad quad;
   quad.mask = mask;
   for (std::size_t i = 0; i < 2; ++i) {
-    quad.e[i] = edge_at(of.edges[i + 1], x, y);
+    quad.e[i] = edge_at(of.edges[i + 1], x, y, sample);
     quad.a[i] = static_cast<std::int32_t>(of.edges[i + 1].a);
     quad.b[i] = static_cast<std::int32_t>(of.edges[i + 1].b);
   }
