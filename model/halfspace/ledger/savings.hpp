@@ -29,7 +29,7 @@ struct Savings {
   RunCost all_off;
 };
 
-/// The keys that switch something on or off.
+/// The keys that switch something on or off that may save work.
 std::vector<std::string> switches();
 
 /// Runs `frame` on the machine of `config` with all switches on, with each off in turn, and with all off.
