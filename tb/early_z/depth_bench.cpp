@@ -70,8 +70,8 @@ class DepthBench {
     const EarlyZState state{.format = format,
                             .interpolator = interpolator_,
                             .sub_pixel_bits = widths_.SubPixelBits,
-                            .samples = standard_samples(widths_.PixelSamples),
-                            .square_reach = squares.reach(widths_)};
+                            .square_reach = squares.reach(widths_),
+                            .samples = standard_samples(widths_.PixelSamples)};
     std::vector<std::uint32_t> words(words_for(packed_bits<DepthEquationPacket>(widths_)));
     pack(to_packet(triangle, format, interpolator_), widths_, words);
     set_port(dut_->equation_i, words);

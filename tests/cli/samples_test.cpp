@@ -101,12 +101,12 @@ TEST_CASE("samples: a record is re-timed to the cycles of a run") {
 TEST_CASE("samples: the RTL is given their number and their places") {
   const Place place;
   const auto arguments = [&](const std::string& options) { return place.run("config --rtl " + options).out; };
-  CHECK_THAT(arguments(""), Contains("-DHALFSPACE_SAMPLES=1\n-DHALFSPACE_SAMPLE_POSITIONS=128'h88\n"));
+  CHECK_THAT(arguments(""), Catch::Contains("-DHALFSPACE_SAMPLES=1\n-DHALFSPACE_SAMPLE_POSITIONS=128'h88\n"));
   CHECK_THAT(arguments("--set raster.samples=4"),
-             Contains("-DHALFSPACE_SAMPLES=4\n-DHALFSPACE_SAMPLE_POSITIONS=128'hae2ae662\n") &&
-                 Contains("-GMemoryTiles=262144\n"));
+             Catch::Contains("-DHALFSPACE_SAMPLES=4\n-DHALFSPACE_SAMPLE_POSITIONS=128'hae2ae662\n") &&
+                 Catch::Contains("-GMemoryTiles=262144\n"));
   CHECK_THAT(arguments("--set raster.samples=2 --set \"raster.sample_positions=0,15;11,3\""),
-             Contains("-DHALFSPACE_SAMPLES=2\n-DHALFSPACE_SAMPLE_POSITIONS=128'hb30f\n"));
+             Catch::Contains("-DHALFSPACE_SAMPLES=2\n-DHALFSPACE_SAMPLE_POSITIONS=128'hb30f\n"));
   // Positions that are those of the standard are the same machine.
   CHECK(arguments("--set raster.samples=2 --set \"raster.sample_positions=12,12;4,4\"") ==
         arguments("--set raster.samples=2"));

@@ -220,8 +220,13 @@ void check_against(const NaiveBuffer& naive, const Frame& frame) {
       REQUIRE(surface.codes.at(x, y) == code_of_depth(surface.format, eighths / 8.0));
     }
   }
-  const RunResult run{
-      .frame = result, .cycles = {}, .times = {}, .rtl = {}, .quad_merging = {}, .reference = {}};
+  const RunResult run{.frame = result,
+                      .cycles = {},
+                      .times = {},
+                      .rtl = {},
+                      .quad_merging = {},
+                      .pixel_rate = {},
+                      .reference = {}};
   REQUIRE(work_of(frame, run).shaded == naive.shaded);
 }
 
