@@ -1,7 +1,8 @@
 // A payload, a fixed number of cycles later, by way of a memory: where a pipeline register for each of them would be large.
 //
 // The pipeline that it goes beside never stalls, so the slot that a payload takes is free again when it has come round. The
-// payload at the output means something in the cycles in which that pipeline says so.
+// payload at the output means something in the cycles in which that pipeline says so. Where nothing is on its way the slots
+// stand still, so that nothing toggles in a machine at rest.
 
 module delay_memory #(
   /// Bits of the payload.
@@ -26,11 +27,18 @@ module delay_memory #(
   pointer_t slot_q, slot_d;
   assign slot_d = slot_q == LastSlot ? '0 : slot_q + pointer_t'(1);
 
+  // Cycles that the slots still have to move after this one, so that the youngest payload is next to be read.
+  pointer_t left_q;
+  logic     moves;
+  assign moves = valid_i | left_q != '0;
+
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       slot_q <= '0;
-    end else begin
+      left_q <= '0;
+    end else if (moves) begin
       slot_q <= slot_d;
+      left_q <= valid_i ? pointer_t'(Cycles - 2) : left_q - pointer_t'(1);
     end
   end
 
