@@ -43,9 +43,9 @@ def draw(data):
         axes.grid(True, color="#E8E8E8")
         axes.spines[["top", "right"]].set_visible(False)
         axes.tick_params(labelsize=8)
+        axes.set_xlabel("samples of a pixel", fontsize=8.5)
     for axes in panels.flat[len(frames) :]:
         axes.remove()
-    figure.supxlabel("samples of a pixel", fontsize=9)
     figure.supylabel("error, 255ths", fontsize=9)
     figure.suptitle("Root mean square error of the shaded picture", fontsize=11, x=0.01, ha="left")
     figure.legend(*panels.flat[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8.5)

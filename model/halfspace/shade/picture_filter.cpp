@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -53,6 +54,7 @@ Rgb filtered(const Picture& picture, const Taps& across, const Taps& down) {
 Picture shrink(const Picture& picture, int times, PictureFilter filter) {
   Picture out(picture.width / times, picture.height / times);
   std::vector<Taps> across;
+  across.reserve(static_cast<std::size_t>(out.width));
   for (int x = 0; x < out.width; ++x) {
     across.push_back(taps_of(x, times, picture.width, filter));
   }

@@ -61,7 +61,7 @@ std::uint32_t barycentric_float(const DepthEquation& eq, std::int64_t e1, std::i
     return sum < 0 ? 0u - float_bits(depth, place) : float_bits(depth, place);
   }
   const int cut = eq.exponent - kLongWordFraction - place;  // to a word; not negative, as depth < 2^exponent
-  const auto word = static_cast<std::int64_t>(cut < 64 ? depth >> cut : 0);
+  const auto word = static_cast<std::int64_t>(depth != 0 && cut < 64 ? depth >> cut : 0);  // 0 has no place
   return code_of_word(Int128{sum < 0 ? -word : word} + eq.offset, eq.exponent);
 }
 

@@ -51,7 +51,8 @@ class SampleCollector {
   /// A quad of one sample of the tile that is held: its top left pixel in the tile, and the bits of its
   /// pixels.
   void add(int x, int y, int sample, std::uint8_t covered, std::uint8_t passed) {
-    PixelQuad& quad = quads_[static_cast<std::size_t>(y / 2 * row_ + x / 2)];
+    PixelQuad& quad = quads_.at(static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(row_) +
+                                static_cast<std::size_t>(x / 2));
     for (std::size_t pixel = 0; pixel < 4; ++pixel) {
       quad.covered[pixel] =
           static_cast<std::uint16_t>(quad.covered[pixel] | (covered >> pixel & 1) << sample);

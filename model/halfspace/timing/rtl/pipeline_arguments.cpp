@@ -4,6 +4,8 @@
 
 #include <type_traits>
 
+#include "halfspace/numerics/error.hpp"
+
 namespace halfspace::rtl {
 namespace {
 
