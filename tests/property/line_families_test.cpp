@@ -1,5 +1,6 @@
 // The families of thin lines of the stress campaign: both cores obey the definitions, and a rasterizer that
 // takes one rule for another is found.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -69,7 +70,8 @@ TEST_CASE("line families: both cores obey the definitions", "[property]") {
   const Core core = GENERATE(Core::kFast, Core::kReadable);
   CAPTURE(seed(), bits);
   CoreSubject subject(core, bits);
-  const stress::CampaignState state = run(bits, samples(4'000'000) / 1'000'000, subject);
+  const stress::CampaignState state =
+      run(bits, std::max<std::uint64_t>(1, samples(4'000'000) / 1'000'000), subject);
   for (const stress::FamilyState& family : state.families) {
     INFO(family.family);
     CHECK(family.tally.samples > 0);
