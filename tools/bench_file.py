@@ -1,6 +1,8 @@
 """Reads the JSON that `halfspace bench` wrote, and saves the pictures that are drawn of it."""
 
+import argparse
 import json
+import pathlib
 import sys
 
 ENDINGS = (".png", ".svg")
@@ -34,3 +36,15 @@ def save(figure, images):
     for image in images:
         image.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(image, metadata={"Date": None} if image.suffix == ".svg" else {"Software": None})
+
+
+def plot(description, name, schema, draw):
+    """What a script does that draws one file: `draw` makes a figure of the data in the file of that name."""
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("json", type=pathlib.Path, help=name)
+    parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
+    options = parser.parse_args()
+    check_endings(options.image)
+    save(draw(read_json(options.json, schema)), options.image)

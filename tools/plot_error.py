@@ -7,8 +7,6 @@ A point is a fidelity on a workload. Those with an error are drawn above, by its
 cycles are exactly the RTL's have a lane for each fidelity below, and so have those without cycles.
 """
 
-import argparse
-import pathlib
 import statistics
 
 import matplotlib
@@ -17,7 +15,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter  # noqa: E402
 
-from bench_file import check_endings, read_json, save  # noqa: E402
+from bench_file import plot  # noqa: E402
 
 SCHEMA = ("halfspace-error", 2)
 # Fidelity: marker, colour (of Okabe and Ito, which the colour-blind can tell apart).
@@ -178,16 +176,5 @@ def draw(data):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("json", type=pathlib.Path, help="error.json")
-    parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
-    options = parser.parse_args()
-    check_endings(options.image)
-    save(draw(read_json(options.json, SCHEMA)), options.image)
-
-
 if __name__ == "__main__":
-    main()
+    plot(__doc__, "error.json", SCHEMA, draw)

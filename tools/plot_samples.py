@@ -4,16 +4,13 @@
     tools/plot_samples.py out/samples/samples.json docs/images/samples.png
 """
 
-import argparse
-import pathlib
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator  # noqa: E402
 
-from bench_file import check_endings, read_json, save  # noqa: E402
+from bench_file import plot  # noqa: E402
 from samples_data import METHODS, SAMPLES, SCHEMA  # noqa: E402
 
 # Of Okabe and Ito, which the colour-blind can tell apart.
@@ -52,16 +49,5 @@ def draw(data):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("json", type=pathlib.Path, help="samples.json")
-    parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
-    options = parser.parse_args()
-    check_endings(options.image)
-    save(draw(read_json(options.json, SCHEMA)), options.image)
-
-
 if __name__ == "__main__":
-    main()
+    plot(__doc__, "samples.json", SCHEMA, draw)

@@ -4,16 +4,13 @@
     tools/plot_traversal.py out/traversal/traversal.json docs/images/traversal.png
 """
 
-import argparse
-import pathlib
-
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 
-from bench_file import check_endings, read_json, save  # noqa: E402
+from bench_file import plot  # noqa: E402
 from traversal_data import METRICS, SCHEMA, name_of, walks  # noqa: E402
 
 # Walks differ by factors; of the others by percent.
@@ -54,16 +51,5 @@ def draw(data):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("json", type=pathlib.Path, help="traversal.json")
-    parser.add_argument("image", type=pathlib.Path, nargs="+", help="file to write, .png or .svg")
-    options = parser.parse_args()
-    check_endings(options.image)
-    save(draw(read_json(options.json, SCHEMA)), options.image)
-
-
 if __name__ == "__main__":
-    main()
+    plot(__doc__, "traversal.json", SCHEMA, draw)
