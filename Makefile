@@ -1,4 +1,4 @@
-# The two commands: `make demo` and `make test`. Everything else is for those who work on halfspace. CI runs `make test lint`.
+# The two commands: `make demo` and `make test`. Everything else is for those who work on halfspace. CI runs `make test test-sanitized lint`.
 
 BUILD := build/release
 HALFSPACE := $(BUILD)/bin/halfspace
@@ -19,9 +19,12 @@ demo: release-program ## Install what is missing, build, and rasterize a truck o
 	$(HALFSPACE) run scenes/cc0_truck.ptf.xz --fidelity recurrence --out out/cc0_truck
 
 .PHONY: test
-test: release debug ## Install what is missing, build, and run the tests.
-	ctest --test-dir build/debug -L 'unit|property|timing' --output-on-failure -j 2
+test: release ## Install what is missing, build, and run the tests.
 	ctest --test-dir $(BUILD) -LE 'slow|lint|synthesis|formal' --output-on-failure -j 2
+
+.PHONY: test-sanitized
+test-sanitized: debug ## Run the tests of the library once more with AddressSanitizer and UndefinedBehaviorSanitizer.
+	ctest --test-dir build/debug -L 'unit|property|timing' --output-on-failure -j 2
 
 .PHONY: lint
 lint: build/release/build.ninja $(PYTHON_TOOLS) $(PROVE_TOOLS) $(GALLERY_TOOLS) ## Look at layout and static analysis, synthesize the RTL, and prove it in part.
