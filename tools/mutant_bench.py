@@ -108,8 +108,12 @@ class UnitBench:
 
     def __init__(self, unit, build):
         self.unit = unit
-        self.made = Build(unit, f"{unit}_bench_all", build)
-        self.sources = self.made.sources
+        self.build = Build(unit, f"{unit}_bench_all", build)
+        self.models = self.build.models
+        self.sources = self.build.sources
+
+    def make(self, model, folder):
+        return self.build.make(model, folder)
 
     def command(self, program, model):
         return [program, "--model", model.name, *self.no_wave(program)]
@@ -126,16 +130,23 @@ class UnitBench:
 
 
 class PipelineBench:
-    """raster_pipeline_bench: a program that loads a model, which is a library by itself."""
+    """raster_pipeline_bench: a program that loads a model, which is a library by itself: <machine>_no_dfg."""
 
-    def __init__(self, build):
+    def __init__(self, names, build):
         self.unit = "raster_pipeline"
-        self.made = Build(self.unit, "halfspace_rtl_small_no_dfg", build)
-        self.sources = self.made.sources
+        builds = {name: Build(self.unit, f"halfspace_rtl_{name}", build) for name in names}
+        self.models = {name: made.models[name] for name, made in builds.items()}
+        self.builds = builds
+        self.sources = next(iter(builds.values())).sources
         self.program = build / "tb" / "raster_pipeline" / "raster_pipeline_bench"
 
-    def command(self, library, _):
-        machine = ROOT / "configs" / "small.toml"
+    def make(self, model, folder):
+        return self.builds[model.name].make(model, folder)
+
+    def command(self, library, model):
+        file = f"{model.name.removesuffix('_no_dfg')}.toml"
+        folders = [ROOT / "configs", ROOT / "tb" / "raster_pipeline"]
+        machine = next(folder / file for folder in folders if (folder / file).exists())
         return [self.program, "--config", machine, "--rtl-folder", library.parent]
 
     @staticmethod
@@ -157,10 +168,10 @@ class PipelineBench:
 
 
 def models_of(bench, names):
-    unknown = [name for name in names if name not in bench.made.models]
+    unknown = [name for name in names if name not in bench.models]
     if unknown:
-        raise SystemExit(f"no model {', '.join(unknown)}; there are {', '.join(bench.made.models)}")
-    return [bench.made.models[name] for name in names]
+        raise SystemExit(f"no model {', '.join(unknown)}; there are {', '.join(bench.models)}")
+    return [bench.models[name] for name in names]
 
 
 def find(bench, models, mutant, arguments, limit):
@@ -171,7 +182,7 @@ def find(bench, models, mutant, arguments, limit):
         if mutant:
             write_mutant(mutant, folder / "rtl")
         for model in models:
-            program = bench.made.make(model, folder)
+            program = bench.make(model, folder)
             command = [*bench.command(program, model), *arguments]
             try:
                 done = subprocess.run(command, capture_output=True, text=True, timeout=limit, cwd=folder)

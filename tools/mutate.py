@@ -47,7 +47,7 @@ GROUPS = {
     ),
     "squares": Group(
         "setup",
-        ["outer_t8_s8", "outer_t4_s4_i4", "inner_t8_s5_i2"],
+        ["outer_t8_s8", "outer_t4_s4_i4", "inner_t8_s5_i2", "t8_s8"],
         ["--tiles", "12000"],
         ["square_pkg"],
     ),
@@ -81,8 +81,12 @@ GROUPS = {
         ["--tiles", "40000"],
         ["tile_walker", "tile_edge"],
     ),
-    "samples": Group("tile_walker", ["t8_b32_samples4", "t8_b32"], ["--tiles", "20000"], ["sample_pkg"]),
-    "sample_box": Group("setup", ["samples4_t8_s8", "t8_s8"], ["--tiles", "12000"], ["sample_box_pkg"]),
+    "samples": Group(
+        "raster_pipeline",
+        ["sample_aside_no_dfg", "samples4_no_dfg", "samples2_no_dfg", "small_no_dfg"],
+        ["--triangles", "3000"],
+        ["sample_pkg", "sample_box_pkg"],
+    ),
     "hi_z": Group(
         "hi_z",
         ["lag8", "lag1", "parts"],
@@ -109,7 +113,7 @@ GROUPS = {
     ),
     "raster_pipeline": Group("raster_pipeline", ["small_no_dfg"], ["--triangles", "20000"]),
 }
-# Of several units. Only the groups that name them mutate them: each bench sees a part.
+# Of several units: constants of the machine, which only the pipeline's bench has in every place.
 SHARED = {"sample_pkg", "sample_box_pkg"}
 SURVIVED = "**survived**"
 HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
@@ -159,7 +163,7 @@ def changed_lines(name, commit):
 
 def mutants_for(bench, options):
     """The group's: the pipeline's are its own modules, and of the units what their benches miss."""
-    own = {"raster_pipeline", "cycle_counters"}
+    own = {"raster_pipeline", "cycle_counters", *SHARED}
     files = options.file or GROUPS[options.group].files
     of_others = SHARED | {
         name
@@ -329,7 +333,7 @@ def main():
     Sources.folder = options.rtl.resolve()
     build = options.build.resolve()
     unit = GROUPS[options.group].unit
-    bench = PipelineBench(build) if unit == "raster_pipeline" else UnitBench(unit, build)
+    bench = PipelineBench(options.model, build) if unit == "raster_pipeline" else UnitBench(unit, build)
     models = models_of(bench, options.model)
     mutants = list(mutants_for(bench, options))
     if options.list:
