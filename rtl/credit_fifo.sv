@@ -10,7 +10,9 @@ module credit_fifo #(
   /// plus one, packets cannot flow in every cycle.
   parameter int unsigned Depth = 4,
   /// 1: slots are words of a memory, for many or wide ones; 0: registers.
-  parameter bit InMemory = 1'b0
+  parameter bit InMemory = 1'b0,
+  /// Top bits of the payload that are always 0: no memory keeps them. Not with registers.
+  parameter int unsigned Zeros = 0
 ) (
   input  logic             clk_i,
   input  logic             rst_ni,
@@ -47,18 +49,27 @@ module credit_fifo #(
   );
 
   if (InMemory) begin : gen_memory
+    localparam int unsigned Kept = Width - Zeros;
+    logic [Kept-1:0] kept;
+    assign data_o = Width'(kept);
+
     memory_fifo #(
-      .Width (Width),
+      .Width (Kept),
       .Slots (Depth)
     ) u_slots (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
       .push_i      (push_i),
-      .data_i      (data_i),
+      .data_i      (data_i[Kept-1:0]),
       .pop_valid_o (pop_valid_o),
       .pop_ready_i (pop_ready_i),
-      .data_o      (data_o)
+      .data_o      (kept)
     );
+
+    if (Zeros != 0) begin : gen_zeros
+      logic unused_zeros;
+      assign unused_zeros = ^data_i[Width-1:Kept];
+    end
   end else begin : gen_registers
     localparam int unsigned Stored = Depth - 1;
     localparam int unsigned CountBits = $clog2(Depth + 1);

@@ -32,7 +32,6 @@ module depth_barycentric
 );
 
   localparam int unsigned Stages = 13;
-  localparam int unsigned QuadLog2 = TileLog2 - 1;
   localparam int unsigned WeightBits = 30; // as in barycentric_sample
   localparam logic [FormatBits-1:0] Unorm16 = 1;
   localparam logic [FormatBits-1:0] Float32 = 4;
@@ -54,29 +53,12 @@ module depth_barycentric
   end
 
   // 1: unbiased E at the first samples of the quads, and the steps to the others.
-  function automatic edge_t of_pixel(step_t step);
-    return edge_t'(step) <<< SubPixelBits;
-  endfunction
-
   edge_t [1:0] origin, a, b;
   for (genvar i = 0; i < 2; i++) begin : gen_edge
     assign origin[i] = e_i[i] + edge_t'($signed({1'b0, equation_i.bias[i+1]}));
     assign a[i]      = of_pixel(equation_i.a[i]);
     assign b[i]      = of_pixel(equation_i.b[i]);
   end
-
-  // Multiples too small for multipliers: a shifted step for each bit of the quad's place. One sum, so that carries go
-  // through it once.
-  function automatic edge_t at_quad(edge_t from, edge_t x_step, edge_t y_step,
-                                    logic [QuadIndexBits-1:0] index);
-    edge_t sum;
-    sum = from;
-    for (int unsigned i = 0; i < QuadLog2; i++) begin
-      sum += (x_step <<< (i + 1)) & {EdgeBits{index[i]}};
-      sum += (y_step <<< (i + 1)) & {EdgeBits{index[QuadLog2+i]}};
-    end
-    return sum;
-  endfunction
 
   // What is only handed on.
   logic [7:0] [ReciprocalBits-1:0]       reciprocal;

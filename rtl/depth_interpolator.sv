@@ -1,4 +1,5 @@
-// Depth at the samples of a beat, by the interpolator that the machine has. A beat a cycle; nothing stalls.
+// Depth at the samples of a beat, by the interpolator that the machine has, and where it is asked for which of its pixels the
+// triangle fills. A beat a cycle; nothing stalls.
 
 module depth_interpolator
   import raster_pkg::*;
@@ -14,7 +15,9 @@ module depth_interpolator
   /// Pixels of triangles that are drawn by squares: 0 none are, 1 outer, 2 inner. Outer ones need barycentric weights.
   parameter int unsigned Conservative = Centres,
   /// How much larger than the pixel its square is on each side, in sub-pixels.
-  parameter int unsigned Uncertainty = 0
+  parameter int unsigned Uncertainty = 0,
+  /// 1: says which pixels of outer triangles these fill; needs barycentric weights. 0: inner_o is 0.
+  parameter bit InnerCoverage = 1'b0
 ) (
   input  logic                                  clk_i,
 
@@ -30,7 +33,8 @@ module depth_interpolator
   input  logic [Quads-1:0] [QuadMaskBits-1:0]   mask_i,
 
   /// Four samples a quad, in the order of its mask. 0 where the format is none.
-  output logic [4*Quads-1:0] [CodeBits-1:0]     code_o
+  output logic [4*Quads-1:0] [CodeBits-1:0]     code_o,
+  output logic [Quads-1:0] [QuadMaskBits-1:0]   inner_o
 );
 
   localparam int unsigned Least = 12;
@@ -73,6 +77,24 @@ module depth_interpolator
 
     logic unused_tile;
     assign unused_tile = ^{tile_x_i, tile_y_i};
+  end
+
+  if (InnerCoverage) begin : gen_inner
+    inner_coverage #(
+      .Quads       (Quads),
+      .Latency     (Latency),
+      .Uncertainty (Uncertainty)
+    ) u_inner (
+      .clk_i      (clk_i),
+      .valid_i    (valid_i),
+      .equation_i (equation_i),
+      .e_i        (e_i),
+      .index_i    (index_i),
+      .mask_i     (mask_i),
+      .inner_o    (inner_o)
+    );
+  end else begin : gen_no_inner
+    assign inner_o = '0;
   end
 
   if (Extra == 0) begin : gen_at_once

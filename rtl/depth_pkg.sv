@@ -88,4 +88,25 @@ package depth_pkg;
     return value == '0 || rounding.vanishes ? '0 : {rounding.field, 23'b0} + rounded;
   endfunction
 
+  // Columns of quads in a tile are 2^QuadLog2.
+  localparam int unsigned QuadLog2 = TileLog2 - 1;
+
+  // E by the pixel.
+  function automatic edge_t of_pixel(step_t step);
+    return edge_t'(step) <<< SubPixelBits;
+  endfunction
+
+  // E at the first pixel of a quad of the tile, `from` at that of the tile. Multiples too small for multipliers: a shifted step
+  // for each bit of the quad's place. One sum, so that carries go through it once.
+  function automatic edge_t at_quad(edge_t from, edge_t x_step, edge_t y_step,
+                                    logic [QuadIndexBits-1:0] index);
+    edge_t sum;
+    sum = from;
+    for (int unsigned i = 0; i < QuadLog2; i++) begin
+      sum += (x_step <<< (i + 1)) & {EdgeBits{index[i]}};
+      sum += (y_step <<< (i + 1)) & {EdgeBits{index[QuadLog2+i]}};
+    end
+    return sum;
+  endfunction
+
 endpackage : depth_pkg

@@ -30,7 +30,6 @@ module depth_plane
 );
 
   localparam int unsigned Stages = 12;
-  localparam int unsigned QuadLog2 = TileLog2 - 1;
   localparam logic [FormatBits-1:0] Unorm16 = 1;
   localparam logic [FormatBits-1:0] Float32 = 4;
 

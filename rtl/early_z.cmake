@@ -20,6 +20,9 @@ foreach(configuration "1;0;8;1" "1;128;8;1" "1;8;4;1" "2;1;8;1" "2;1;8;0")
   halfspace_lint(c${conservative}_u${uncertainty}_s${sub_pixel_bits}_z${interpolator} -GConservative=${conservative}
                  -GUncertainty=${uncertainty} -DHALFSPACE_SUB_PIXEL_BITS=${sub_pixel_bits} -GInterpolator=${interpolator})
 endforeach()
+halfspace_lint(inner_coverage -GConservative=1 -GUncertainty=1 -GInterpolator=1 -GInnerCoverage=1'b1)
+halfspace_lint(inner_coverage_s4_v1 -GConservative=1 -GUncertainty=8 -GInterpolator=1 -GInnerCoverage=1'b1
+               -DHALFSPACE_SUB_PIXEL_BITS=4 -DHALFSPACE_QUAD_WIDTH=1 -DHALFSPACE_TEST_WIDTH=1)
 foreach(samples 2 4 8 16)
   halfspace_lint(samples${samples} -DHALFSPACE_SAMPLES=${samples})
   halfspace_lint(samples${samples}_barycentric -DHALFSPACE_SAMPLES=${samples} -DHALFSPACE_TILE_SIZE=4 -GInterpolator=1)

@@ -12,6 +12,7 @@ barycentric_sample.sv
 depth_barycentric.sv
 plane_sample.sv
 depth_plane.sv
+inner_coverage.sv
 depth_interpolator.sv
 z_bank.sv
 z_clear_flags.sv

@@ -26,6 +26,8 @@ module early_z
   parameter int unsigned Conservative = Centres,
   /// How much larger than the pixel its square is on each side, in sub-pixels.
   parameter int unsigned Uncertainty = 0,
+  /// 1: says which pixels of outer triangles these fill; needs barycentric weights. 0: inner of beat_o is 0.
+  parameter bit InnerCoverage = 1'b0,
   /// Lines of the z cache, a power of two, at least ZParts * Ways.
   parameter int unsigned Lines = 128,
   /// Lines of a set: a power of two.
@@ -348,9 +350,10 @@ module early_z
   );
 
   typedef struct packed {
-    traveller_t                            beat;
-    test_state_t                           state;
-    logic [TestSamples-1:0] [CodeBits-1:0] codes;
+    logic [TestWidth-1:0] [QuadMaskBits-1:0] inner;
+    traveller_t                              beat;
+    test_state_t                             state;
+    logic [TestSamples-1:0] [CodeBits-1:0]   codes;
   } coded_t;
 
   traveller_t  beat_q  [InterpolatorLatency] /*verilator split_var*/;
@@ -389,11 +392,12 @@ module early_z
   logic   coded_valid, coded_taken, unused_codes_empty;
 
   depth_interpolator #(
-    .Quads        (TestWidth),
-    .Interpolator (Interpolator),
-    .Latency      (InterpolatorLatency),
-    .Conservative (Conservative),
-    .Uncertainty  (Uncertainty)
+    .Quads         (TestWidth),
+    .Interpolator  (Interpolator),
+    .Latency       (InterpolatorLatency),
+    .Conservative  (Conservative),
+    .Uncertainty   (Uncertainty),
+    .InnerCoverage (InnerCoverage)
   ) u_interpolator (
     .clk_i      (clk_i),
     .valid_i    (valid_q[0]),
@@ -404,7 +408,8 @@ module early_z
     .e_i        (issued_e_q),
     .index_i    (issued_q.index),
     .mask_i     (issued_q.mask),
-    .code_o     (coded.codes)
+    .code_o     (coded.codes),
+    .inner_o    (coded.inner)
   );
 
   assign coded.beat  = beat_q[InterpolatorLatency-1];
@@ -413,6 +418,7 @@ module early_z
   // As many as are under way and one, so that a beat can go in every cycle.
   credit_fifo #(
     .Width    ($bits(coded_t)),
+    .Zeros    (InnerCoverage ? 0 : TestWidth * QuadMaskBits),
     .Depth    (InterpolatorLatency + 3),
     .InMemory (1'b1)
   ) u_codes (
@@ -431,6 +437,7 @@ module early_z
   // Test.
   tested_beat_t test_beat;
   assign test_beat = '{
+    inner:  coded_out.inner,
     slot:   coded_out.beat.slot,
     tile_x: coded_out.beat.tile_x,
     tile_y: coded_out.beat.tile_y,
@@ -447,6 +454,7 @@ module early_z
 
   z_test #(
     .PendingDepth   (PendingDepth),
+    .InnerCoverage  (InnerCoverage),
     .FifoDepth      (FifoDepth),
     .Lines          (Lines),
     .Ways           (Ways),

@@ -11,6 +11,7 @@ module raster_pipeline
   // Names in the configuration file and what each costs: docs/units/raster_pipeline.md.
   parameter int unsigned Conservative = 0,
   parameter int unsigned Uncertainty = 1,
+  parameter bit InnerCoverage = 1'b0,
   parameter int unsigned SetupQueue = 8,
   parameter int unsigned SetupInterval = 1,
   parameter int unsigned SetupFifo = 40,
@@ -127,14 +128,15 @@ module raster_pipeline
   draw_state_t     state;
 
   setup #(
-    .Conservative (Conservative),
-    .Uncertainty  (Uncertainty),
-    .QueueDepth   (SetupQueue),
-    .FifoDepth    (SetupFifo),
-    .Interval     (SetupInterval),
-    .Interpolator (Interpolator),
-    .HiZ          (HiZ),
-    .ThinLines    (ThinLines)
+    .Conservative  (Conservative),
+    .Uncertainty   (Uncertainty),
+    .InnerCoverage (InnerCoverage),
+    .QueueDepth    (SetupQueue),
+    .FifoDepth     (SetupFifo),
+    .Interval      (SetupInterval),
+    .Interpolator  (Interpolator),
+    .HiZ           (HiZ),
+    .ThinLines     (ThinLines)
   ) u_setup (
     .clk_i            (clk_i),
     .rst_ni           (rst_ni),
@@ -323,6 +325,7 @@ module raster_pipeline
     .InterpolatorLatency (InterpolatorLatency),
     .Conservative        (Conservative),
     .Uncertainty         (Uncertainty),
+    .InnerCoverage       (InnerCoverage),
     .Lines               (Lines),
     .Ways                (Ways),
     .MissesInFlight      (MissesInFlight),

@@ -297,6 +297,7 @@ package raster_pkg;
 
   // early_z -> fragment shader: a beat of a burst
   typedef struct packed {
+    logic [TestWidth-1:0] [QuadMaskBits-1:0] inner;
     logic [SlotBits-1:0] slot;
     logic [TileColumnBits-1:0] tile_x;
     logic [TileCoordBits-1:0] tile_y;

@@ -15,6 +15,8 @@ module setup
   parameter int unsigned Conservative = Centres,
   /// How much larger than the pixel its square is on each side, in sub-pixels.
   parameter int unsigned Uncertainty = 0,
+  /// 1: the barycentric equation of a triangle that is drawn by squares has 2A, also without a depth surface.
+  parameter bit InnerCoverage = 1'b0,
   /// Triangles in the cull stage and its queue, 2 or more, each as wide as verdict_t. With fewer than 5 the stage
   /// cannot take a triangle in every cycle.
   parameter int unsigned QueueDepth = 8,
@@ -267,13 +269,15 @@ module setup
   hi_z_plane_t hi_z_plane;
 
   // What only the other equation has stays 0.
-  logic with_weights, with_plane;
+  logic with_weights, with_plane, with_area;
   assign with_weights = has_depth & (Interpolator == Barycentric);
+  assign with_area    = with_weights | (InnerCoverage & verdict.triangle.by_square
+                                        & (Interpolator == Barycentric));
   assign with_plane   = has_depth & (Interpolator == Plane);
 
   always_comb begin
     known_d.z      = with_weights ? verdict.triangle.z : '0;
-    known_d.area2  = with_weights ? depth_area2 : '0;
+    known_d.area2  = with_area ? depth_area2 : '0;
     known_d.shift  = with_weights ? shift : '0;
     known_d.x      = with_plane ? verdict.triangle.x[0] : '0;
     known_d.y      = with_plane ? verdict.triangle.y[0] : '0;

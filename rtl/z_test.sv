@@ -12,6 +12,8 @@ module z_test
   parameter int unsigned PendingDepth = 32,
   /// Bursts in the output FIFO, 2 or more.
   parameter int unsigned FifoDepth = 16,
+  /// 0: inner of beat_i is 0, and takes no memory.
+  parameter bit InnerCoverage = 1'b0,
   /// Lines of the cache, a power of two, at least ZParts * Ways.
   parameter int unsigned Lines = 128,
   /// Lines of a set: a power of two.
@@ -583,6 +585,7 @@ module z_test
 
   credit_fifo #(
     .Width    ($bits(tested_beat_t)),
+    .Zeros    (InnerCoverage ? 0 : TestWidth * QuadMaskBits),
     .Depth    (FifoDepth * TestBeats),
     .InMemory (1'b1)
   ) u_fifo (

@@ -60,7 +60,9 @@ class Build:
             compiled = re.search(r" -o (\S+) -c (\S+)", command)
             if compiled and compiled.group(1) in objects:
                 for model in self.models.values():
-                    if pathlib.Path(compiled.group(2)).name == f"{model.prefix}__all.cpp":
+                    verilated = pathlib.Path(compiled.group(2)).name == f"{model.prefix}__all.cpp"
+                    # What looks into the model's insides, as the pipeline's probe does, is compiled with them.
+                    if verilated or (unit == "raster_pipeline" and f"/{model.prefix} " in command):
                         model.compile.append(command)
         verilate = next(iter(self.models.values())).verilate
         sources = re.findall(rf"{re.escape(str(RTL))}/(\w+)\.sv", verilate)

@@ -87,6 +87,9 @@ GROUPS = {
         ["--triangles", "3000"],
         ["sample_pkg", "sample_box_pkg"],
     ),
+    "inner_coverage": Group(
+        "raster_pipeline", ["outer_inner_no_dfg"], ["--triangles", "3000"], ["inner_coverage"]
+    ),
     "hi_z": Group(
         "hi_z",
         ["lag8", "lag1", "parts"],
@@ -113,8 +116,8 @@ GROUPS = {
     ),
     "raster_pipeline": Group("raster_pipeline", ["small_no_dfg"], ["--triangles", "20000"]),
 }
-# Of several units: constants of the machine, which only the pipeline's bench has in every place.
-SHARED = {"sample_pkg", "sample_box_pkg"}
+# Constants of several units, and what no unit's bench has: only the pipeline's has machines with them.
+SHARED = {"sample_pkg", "sample_box_pkg", "inner_coverage"}
 SURVIVED = "**survived**"
 HEAD = ["| place | change | before | after | found by |", "| --- | --- | --- | --- | --- |"]
 
@@ -163,8 +166,8 @@ def changed_lines(name, commit):
 
 def mutants_for(bench, options):
     """The group's: the pipeline's are its own modules, and of the units what their benches miss."""
-    own = {"raster_pipeline", "cycle_counters", *SHARED}
     files = options.file or GROUPS[options.group].files
+    own = {"raster_pipeline", "cycle_counters", *files}
     of_others = SHARED | {
         name
         for key, group in GROUPS.items()

@@ -251,6 +251,7 @@ def _early_z_parts() -> Unit:
             Configuration("barycentric_sample", multipliers=SAMPLE_MULTIPLIERS),
             Configuration("barycentric_sample", {}, {"Conservative": 1}, SAMPLE_MULTIPLIERS),
             Configuration("plane_sample"),
+            Configuration("inner_coverage", {"TEST_WIDTH": 1}, {"Uncertainty": 1}),
             *(Configuration("depth_plane", {}, {"Quads": quads}, TILE_MULTIPLIERS) for quads in (1, 4)),
             *(
                 Configuration("depth_plane", {"SAMPLES": samples}, {"Quads": 1}, TILE_MULTIPLIERS)

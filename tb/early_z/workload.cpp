@@ -386,7 +386,7 @@ class Maker {
     for (const QuadBeat& beat : quad_beats<TileSize>(in_slot, shape_.widths)) {
       pack(beat, shape_.widths, command.beats.emplace_back(words_for(packed_bits<QuadBeat>(shape_.widths))));
     }
-    for (const TestedBeat& beat : tested_beats<TileSize>(in_slot, passed, codes, shape_.widths)) {
+    for (const TestedBeat& beat : tested_beats<TileSize>(in_slot, passed, TileMask{}, codes, shape_.widths)) {
       pack(beat, shape_.widths,
            command.tested.emplace_back(words_for(packed_bits<TestedBeat>(shape_.widths))));
     }

@@ -42,6 +42,7 @@ Config random_ledger_machine(Random& random) {
     Config config = random_config(random);
     config.hi_z.enabled = random.between(0, 3) != 0;
     config.raster.conservative = Conservative::kOff;  // brute force is of centres
+    config.raster.inner_coverage = false;
     config.hi_z.lag = pick(random, {1, 1, 2, 8, 128});
     keep_to_all_blocks(config);
     try {

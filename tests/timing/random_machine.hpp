@@ -77,6 +77,8 @@ inline Config random_config(Random& random) {
     config.raster.conservative =
         pick(random, {Conservative::kOff, Conservative::kOuter, Conservative::kInner});
     config.raster.uncertainty = pick(random, {0, 1, 2, 128});
+    config.raster.inner_coverage =
+        config.raster.conservative == Conservative::kOuter && random.between(0, 1) == 0;
   }
   config.late_z.mode = pick(random, {LateZ::kOpaque, LateZ::kNoWrite, LateZ::kLate});
   config.late_z.queue = mostly_small(random, 1, 64);
@@ -139,6 +141,7 @@ inline void draw_samples(Random& random, Config& config) {
   }
   if (!sample_pattern(config).is_centre()) {
     config.raster.conservative = Conservative::kOff;
+    config.raster.inner_coverage = false;
     config.hi_z.enabled = false;
     config.block_walker.sample_reject = false;
     config.late_z.mode = config.late_z.mode == LateZ::kLate ? LateZ::kOpaque : config.late_z.mode;
@@ -161,6 +164,7 @@ inline void draw_interpolator(Random& random, Config& config) {
   config.interpolator.bits = 2 * static_cast<int>(random.between(4, 12));
   config.interpolator.fifo = mostly_small(random, 2, 64);
   config.raster.conservative = Conservative::kOff;
+  config.raster.inner_coverage = false;
   for (;;) {
     try {
       validate(config);

@@ -126,6 +126,7 @@ TEST_CASE("a key that changes packets is refused by name", "[timing]") {
                                                          {"raster.sub_pixel_bits", "7"},
                                                          {"raster.conservative", "outer"},
                                                          {"raster.uncertainty", "2"},
+                                                         {"raster.inner_coverage", "true"},
                                                          {"raster.samples", "2"},
                                                          {"raster.sample_positions", "4,4"},
                                                          {"setup.fill_rule", "top_right"},

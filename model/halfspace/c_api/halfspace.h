@@ -31,7 +31,7 @@ extern "C" {
 #define HALFSPACE_API
 #endif
 
-#define HALFSPACE_ABI_VERSION 6
+#define HALFSPACE_ABI_VERSION 7
 
 /** Words that hold any packet of any configuration. */
 #define HALFSPACE_MAX_PACKET_WORDS 80

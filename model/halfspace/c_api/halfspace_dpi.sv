@@ -37,7 +37,7 @@ package halfspace_dpi;
   } status_e;
 
   /// The halfspace.h that this file goes with.
-  parameter int AbiVersion = 6;
+  parameter int AbiVersion = 7;
 
   import "DPI-C" function string halfspace_version();
   import "DPI-C" function int halfspace_abi_version();

@@ -252,8 +252,9 @@ class Chain final : public UnitChain {
     if (context.early_z.format != DepthFormat::kNone && barycentric()) {
       check_samples(coverage, slot.triangle, widths_);
     }
-    const TileMask passed = passage::z_test<TileSize>(slot.triangle, burst, context, stored, codes).passed;
-    for (const TestedBeat& beat : tested_beats<TileSize>(burst.packet, passed, codes, widths_)) {
+    const passage::Tested tested = passage::z_test<TileSize>(slot.triangle, burst, context, stored, codes);
+    for (const TestedBeat& beat :
+         tested_beats<TileSize>(burst.packet, tested.passed, tested.inner, codes, widths_)) {
       emit<TestedBeatLink>(LinkId::kTestedBeat, beat);
     }
   }

@@ -259,6 +259,7 @@ ExitStatus run_command(const RunCommand& command) {
   std::optional<OutputFolder> folder;
   Recorder::Options record;
   record.samples = config.raster.samples;
+  record.inner_coverage = config.raster.inner_coverage;
   record.attributes = config.interpolator.enabled ? config.interpolator.attributes : 0;
   if (!command.out.empty()) {
     folder.emplace(command.out);

@@ -51,6 +51,9 @@ reference::Options options_of(const ReferenceRequest& request, const Config& con
           fmt::format("raster.conservative is {}; legal with --reference {}: off; with exact: any",
                       outer ? "outer" : "inner", request.method));
     }
+    if (config.raster.inner_coverage) {
+      throw OptionError("raster.inner_coverage is true; legal with --reference: false");
+    }
     options.pixels = outer ? reference::Pixels::kTouched : reference::Pixels::kFilled;
     options.uncertainty = config.raster.uncertainty;
   }

@@ -454,6 +454,8 @@ void validate(const Config& config) {
          fmt::format("false where a block has more than {} parts of tiles (these have {})", kMostHiZEntries,
                      bounds));
   const bool by_centres = config.raster.conservative == Conservative::kOff;
+  demand(!config.raster.inner_coverage || config.raster.conservative == Conservative::kOuter,
+         "raster.inner_coverage", 1, "false where 'raster.conservative' is not outer");
   const int half_pixel = 1 << (config.raster.sub_pixel_bits - 1);
   demand(by_centres || config.raster.uncertainty <= half_pixel, "raster.uncertainty",
          config.raster.uncertainty, fmt::format("at most half a pixel ({})", half_pixel));

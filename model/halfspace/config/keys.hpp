@@ -36,6 +36,8 @@
     MODULE(raster., uncertainty, int, 1, range(0, 128), "sub-pixels", function,                              \
         "of outer and inner: how much larger than a pixel its square is on each side; at most half a pixel", \
         Uncertainty)                                                                                         \
+    MODULE(raster., inner_coverage, bool, false, boolean(), "", function,                                    \
+        "of outer: each pixel that is drawn also says whether the triangle fills it", InnerCoverage)         \
     PACKAGE(raster., samples, int, 1, power_of_two(1, 16), "", function,                                     \
         "of a pixel, each with coverage and depth of its own", PixelSamples, HALFSPACE_SAMPLES)              \
     PACKAGE(raster., sample_positions, SamplePattern, kStandardSamples, sample_list(), "", function,         \

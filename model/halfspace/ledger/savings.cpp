@@ -35,7 +35,8 @@ RunCost cost_of(const TimedResult& run) {
 std::vector<std::string> switches() {
   std::vector<std::string> keys;
   for (const ConfigKey& key : config_keys({})) {
-    const bool saves = key.name != "interpolator.enabled";  // a unit more saves no work
+    // What a run gives more saves no work.
+    const bool saves = key.name != "interpolator.enabled" && key.name != "raster.inner_coverage";
     if (saves && (key.value == "true" || key.value == "false")) {
       keys.push_back(key.name);
     }

@@ -58,6 +58,10 @@ int square_reach(const Command& draw, const Config& config) {
   return square_reach(conservative(draw, config), config.raster.uncertainty, config.raster.sub_pixel_bits);
 }
 
+bool has_inner_coverage(const Command& draw, const Config& config) {
+  return config.raster.inner_coverage && conservative(draw, config) == Conservative::kOuter;
+}
+
 WalkerConfig walker_config(const Config& config) {
   return {.sub_pixel_bits = config.raster.sub_pixel_bits,
           .block_size = config.block_walker.block_size,
@@ -147,6 +151,7 @@ SetupState setup_state(const Command& draw, const Target& target, DepthFormat fo
           .fill_rule = rule,
           .conservative = conservative(draw, config),
           .square_reach = square_reach(draw, config),
+          .inner_coverage = has_inner_coverage(draw, config),
           .bounds = draw_bounds(draw, target, rule, config),
           .depth_format = format,
           .limits = depth_limits(draw, format),
@@ -174,6 +179,7 @@ EarlyZState early_z_state(const Command& draw, DepthFormat format, const Config&
                     .interpolator = config.depth.interpolator,
                     .sub_pixel_bits = config.raster.sub_pixel_bits,
                     .square_reach = square_reach(draw, config),
+                    .inner_coverage = has_inner_coverage(draw, config),
                     .samples = sample_pattern(config)};
   state.late = state.write && mode == LateZ::kLate && touches_depth(state);
   return state;

@@ -32,6 +32,9 @@ WalkerConfig walker_config(const Config& config);
 Conservative conservative(const Command& draw, const Config& config);
 int square_reach(const Command& draw, const Config& config);
 
+/// Whether the quads of the draw say which pixels their triangles fill.
+bool has_inner_coverage(const Command& draw, const Config& config);
+
 /// That of the draw, or that of all draws where the configuration has one.
 FillRule fill_rule(const Command& draw, const Config& config);
 

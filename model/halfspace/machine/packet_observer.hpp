@@ -31,6 +31,7 @@ struct QuadEvent {
   std::uint8_t mask = 0;    ///< covered: bit 0 (x, y), 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1)
   std::uint8_t passed = 0;  ///< the same bits after early-Z
   std::uint8_t kept = 0;    ///< and after the shader, where the draw writes late
+  std::uint8_t inner = 0;   ///< with inner coverage: the triangle fills the pixel
   std::array<std::uint32_t, 4> depth{};  ///< codes; 0 for helpers and where there is no depth surface
   /// Leaves early_z; with the interpolator: its burst does. 0 when untimed.
   std::uint64_t cycle = 0;

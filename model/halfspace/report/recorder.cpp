@@ -10,8 +10,9 @@ namespace halfspace {
 namespace {
 
 #pragma pack(push, 1)
-/// A record of quads.npy. Where a pixel has several samples a byte follows, the number of the sample; where
-/// the machine has the interpolator, the attributes of the quad: 4 pixels of 4 components each.
+/// A record of quads.npy. Where a pixel has several samples a byte follows, the number of the sample; with
+/// inner coverage a byte, the pixels that the triangle fills; where the machine has the interpolator, the
+/// attributes of the quad: 4 pixels of 4 components each.
 struct QuadRecord {
   std::uint32_t draw, triangle, surface, x, y;
   std::uint8_t mask, passed;
@@ -31,6 +32,7 @@ constexpr const char* kQuadDescr =
     "u1'),"
     "('depth','<u4',(4,)),('cycle','<u8')";
 constexpr const char* kSampleDescr = ",('sample','|u1')";
+constexpr const char* kInnerDescr = ",('inner','|u1')";
 constexpr const char* kTileDescr =
     "[('draw','<u4'),('triangle','<u4'),('tile_x','<u4'),('tile_y','<u4'),('verdict','|u1')]";
 
@@ -42,14 +44,17 @@ void append(NpyWriter& file, const Record& record) {
 }  // namespace
 
 Recorder::Recorder(const Options& options)
-    : with_sample_(options.samples > 1), attributes_(static_cast<std::size_t>(options.attributes)) {
+    : with_sample_(options.samples > 1),
+      with_inner_(options.inner_coverage),
+      attributes_(static_cast<std::size_t>(options.attributes)) {
   if (options.quads) {
     const std::string attributes =
         attributes_ != 0 ? fmt::format(",('attributes','<i4',({},4,4))", attributes_) : "";
-    const std::string descr =
-        fmt::format("{}{}{}]", kQuadDescr, with_sample_ ? kSampleDescr : "", attributes);
+    const std::string descr = fmt::format("{}{}{}{}]", kQuadDescr, with_sample_ ? kSampleDescr : "",
+                                          with_inner_ ? kInnerDescr : "", attributes);
     quads_.emplace(*options.quads, descr,
-                   sizeof(QuadRecord) + (with_sample_ ? 1 : 0) + attributes_ * sizeof(QuadAttribute));
+                   sizeof(QuadRecord) + (with_sample_ ? 1 : 0) + (with_inner_ ? 1 : 0) +
+                       attributes_ * sizeof(QuadAttribute));
   }
   if (options.tiles) {
     tiles_.emplace(*options.tiles, kTileDescr, sizeof(TileRecord));
@@ -69,6 +74,9 @@ void Recorder::quad(const QuadEvent& event) {
                              event.cycle});
   if (with_sample_) {
     append(*quads_, event.sample);
+  }
+  if (with_inner_) {
+    append(*quads_, event.inner);
   }
   for (std::size_t i = 0; i < attributes_; ++i) {
     append(*quads_, i < event.attributes.size() ? event.attributes[i] : QuadAttribute{});

@@ -17,6 +17,7 @@ class Recorder : public PacketObserver {
     std::optional<std::filesystem::path> quads;  ///< file to write
     std::optional<std::filesystem::path> tiles;  ///< file to write
     int samples = 1;                             ///< of a pixel; with several a quad's record says which
+    bool inner_coverage = false;                 ///< a quad's record says which pixels the triangle fills
     int attributes = 0;                          ///< that the interpolator gives of a quad
   };
 
@@ -32,6 +33,7 @@ class Recorder : public PacketObserver {
 
  private:
   bool with_sample_;
+  bool with_inner_;
   std::size_t attributes_;
   std::optional<NpyWriter> quads_;
   std::optional<NpyWriter> tiles_;

@@ -61,6 +61,7 @@ namespace halfspace {
   C(written,           "fragments that wrote their depth")                    \
   C(discarded,         "survivors that the shader of a late draw discarded")  \
   C(tiles_killed,      "tiles none of whose fragments passed")              \
+  C(inner,             "fragments whose pixel the triangle fills; counted with raster.inner_coverage") \
   C(z_bursts,          "tiles that had to do with stored depth")            \
   C(z_hits,            "their parts that were in the z cache")              \
   C(z_misses,          "their parts that were not")                         \

@@ -259,7 +259,7 @@ constexpr std::array<std::uint64_t, 2> gradient_halves(Modular gradient, bool sh
 }
 
 /// The equation of a triangle. Where the draw has no depth surface there is none: a, b and bias of the
-/// barycentric one are the edges' all the same, everything else is 0.
+/// barycentric one are the edges' all the same, and so is 2A for inner coverage; everything else is 0.
 inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat format,
                                      DepthInterpolator interpolator) {
   const std::array<Edge, 3>& edge = triangle.edge;
@@ -271,12 +271,14 @@ inline DepthEquationPacket to_packet(const SetupTriangle& triangle, DepthFormat 
     packet.b = {edge[1].b, edge[2].b};
     packet.bias = depth.bias;
   }
+  if (barycentric) {
+    packet.area2 = depth.area2;  // 0 where nobody asks for it
+  }
   if (format == DepthFormat::kNone) {
     return packet;
   }
   if (barycentric) {
     packet.z = depth.z;
-    packet.area2 = depth.area2;
     packet.reciprocal = depth.reciprocal;
     packet.shift = depth.shift;
   } else {
@@ -339,7 +341,8 @@ struct HiZUpdatePacket {
 };
 
 /// A beat of a burst after the test: up to TestWidth quads, with what passed and the depth of every covered
-/// sample (0 at the others, and where the target has no depth surface).
+/// sample (0 at the others, and where the target has no depth surface); and, with inner coverage, which of
+/// the covered pixels the triangle fills.
 struct TestedBeat {
   std::uint8_t slot = 0;
   std::uint16_t tile_x = 0;
@@ -348,11 +351,13 @@ struct TestedBeat {
   std::array<std::uint8_t, kMostBeatQuads> index{};
   std::array<std::uint8_t, kMostBeatQuads> mask{};
   std::array<std::uint8_t, kMostBeatQuads> passed{};
+  std::array<std::uint8_t, kMostBeatQuads> inner{};
   std::array<std::uint32_t, 4 * kMostBeatQuads> depth{};  ///< four samples a quad
 
   template <class Visit>
   static constexpr void fields(Visit&& visit) {
     using P = TestedBeat;
+    visit("inner", &P::inner, &Widths::QuadMaskBits, Sign::kUnsigned, &Widths::TestWidth);
     visit("slot", &P::slot, &Widths::SlotBits, Sign::kUnsigned);
     visit("tile_x", &P::tile_x, &Widths::TileColumnBits, Sign::kUnsigned);
     visit("tile_y", &P::tile_y, &Widths::TileCoordBits, Sign::kUnsigned);

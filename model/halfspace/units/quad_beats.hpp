@@ -36,9 +36,10 @@ std::vector<QuadBeat> quad_beats(const QuadBurst& burst, const Widths& widths) {
   return beats;
 }
 
-/// The same burst after the test; `codes` are those of its samples, all 0 where there is no depth surface.
+/// The same burst after the test; `inner`: of the covered pixels those that the triangle fills, none without
+/// inner coverage; `codes` are those of its samples, all 0 where there is no depth surface.
 template <int TileSize>
-std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& passed,
+std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& passed, const TileMask& inner,
                                      const TileCodes<TileSize>& codes, const Widths& widths) {
   const Coverage& coverage = burst.coverage;
   const int most = TileSize * TileSize / 4 / widths.TestWidth + 1;
@@ -54,6 +55,7 @@ std::vector<TestedBeat> tested_beats(const QuadBurst& burst, const TileMask& pas
     beat.index[place] = static_cast<std::uint8_t>(quad.y / 2 * (TileSize / 2) + quad.x / 2);
     beat.mask[place] = quad.mask;
     beat.passed[place] = quad_bits<TileSize>(passed, quad.x, quad.y);
+    beat.inner[place] = quad_bits<TileSize>(inner, quad.x, quad.y);
     for (int sample = 0; sample < 4; ++sample) {
       if ((quad.mask >> sample & 1) != 0) {
         const int at = (quad.y + sample / 2) * TileSize + quad.x + sample % 2;

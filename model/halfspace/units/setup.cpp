@@ -95,7 +95,9 @@ SetupVerdict setup(const ScreenTriangle& in, const SetupState& state, SetupTrian
   out.triangle = in.triangle;
   out.piece = in.piece;
   out.front = front;
-  if (state.depth_format != DepthFormat::kNone) {
+  if (state.depth_format == DepthFormat::kNone) {
+    out.depth.area2 = state.inner_coverage ? area2 : 0;
+  } else {
     make_depth_equation(v, in.offset, out.edge, area2, state.depth_format, state.limits, state.interpolator,
                         out.depth);
   }

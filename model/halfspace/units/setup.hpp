@@ -25,6 +25,7 @@ struct SetupState {
   Conservative conservative =
       Conservative::kOff;                         ///< not off: edges own the pixels whose squares end on them
   int square_reach = 0;                           ///< as conservative.hpp has it
+  bool inner_coverage = false;                    ///< early_z needs 2A, also without a depth surface
   PixelRect bounds;                               ///< scissor, viewport and target, in pixels
   DepthFormat depth_format = DepthFormat::kNone;  ///< none: no depth equation is made
   DepthLimits limits{};

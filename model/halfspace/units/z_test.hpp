@@ -27,7 +27,8 @@ struct EarlyZState {
   DepthFormat format = DepthFormat::kNone;
   DepthInterpolator interpolator = DepthInterpolator::kPlane;
   int sub_pixel_bits = 8;
-  int square_reach = 0;  ///< as SetupState has it
+  int square_reach = 0;         ///< as SetupState has it
+  bool inner_coverage = false;  ///< quads say which of their pixels the triangle fills; with outer pixels
   SamplePattern samples{};
 };
 

@@ -80,7 +80,8 @@ void show_quads(const QuadBurst& burst, const Tested& tested, const std::uint32_
                     .front = triangle.front,
                     .mask = quad.mask,
                     .passed = quad_bits<TileSize>(tested.passed, quad.x, quad.y),
-                    .kept = quad_bits<TileSize>(tested.kept, quad.x, quad.y)};
+                    .kept = quad_bits<TileSize>(tested.kept, quad.x, quad.y),
+                    .inner = quad_bits<TileSize>(tested.inner, quad.x, quad.y)};
     for (int i = 0; i < 4; ++i) {
       const int sample = (quad.y + i / 2) * TileSize + quad.x + i % 2;
       event.depth[static_cast<std::size_t>(i)] = (quad.mask >> i & 1) != 0 ? codes[sample] : 0;

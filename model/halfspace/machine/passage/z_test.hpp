@@ -6,12 +6,14 @@
 #include "halfspace/machine/draw_context.hpp"
 #include "halfspace/machine/frame_result.hpp"
 #include "halfspace/machine/passage/quad_generator.hpp"
+#include "halfspace/units/inner_coverage.hpp"
 #include "halfspace/units/z_test.hpp"
 
 namespace halfspace::passage {
 
 /// Counts what became of a burst's fragments. `kept`: survivors that the shader does not discard.
-inline void count_z_test(DrawContext& draw, int fragments, int survivors, int kept) {
+/// `inner`: fragments whose pixel the triangle fills.
+inline void count_z_test(DrawContext& draw, int fragments, int survivors, int kept, int inner) {
   EarlyZCounters& counters = draw.counters.early_z;
   const auto passed = static_cast<std::uint64_t>(survivors);
   (draw.early_z.test ? counters.tested : counters.untested) += static_cast<std::uint64_t>(fragments);
@@ -19,6 +21,7 @@ inline void count_z_test(DrawContext& draw, int fragments, int survivors, int ke
   counters.written += draw.early_z.write ? static_cast<std::uint64_t>(kept) : 0;
   counters.discarded += static_cast<std::uint64_t>(survivors - kept);
   counters.tiles_killed += survivors == 0 ? 1 : 0;
+  counters.inner += static_cast<std::uint64_t>(inner);
 }
 
 /// Depth codes that leave with the burst, where somebody looks at them: with the test off they are
@@ -48,8 +51,17 @@ inline std::uint32_t* stored_codes(Surface& surface, const DrawContext& draw, co
 
 struct Tested {
   TileMask passed;
-  TileMask kept;  ///< by the shader
+  TileMask kept;   ///< by the shader
+  TileMask inner;  ///< of the covered pixels those that the triangle fills; none without inner coverage
 };
+
+/// Tested::inner of a burst.
+template <int TileSize>
+TileMask inner(const SetupTriangle& triangle, const Coverage& coverage, const EarlyZState& state) {
+  return state.inner_coverage
+             ? inner_coverage<TileSize>(triangle, coverage, state.sub_pixel_bits, state.square_reach)
+             : TileMask{};
+}
 
 /// Tests a burst. `stored`: the tile's codes, null where the target has no depth; those that
 /// pass are written there, where the draw does not write late: then write_late() follows. `codes` is filled
@@ -61,7 +73,9 @@ Tested z_test(const SetupTriangle& triangle, const Burst& burst, DrawContext& dr
   Tested tested;
   tested.passed = halfspace::z_test<TileSize>(triangle, burst.packet, draw.early_z, stored, codes);
   tested.kept = kept<TileSize>(tested.passed, coverage.tile_x, coverage.tile_y, triangle.triangle, draw);
-  count_z_test(draw, burst.fragments, popcount<TileSize>(tested.passed), popcount<TileSize>(tested.kept));
+  tested.inner = inner<TileSize>(triangle, coverage, draw.early_z);
+  count_z_test(draw, burst.fragments, popcount<TileSize>(tested.passed), popcount<TileSize>(tested.kept),
+               popcount<TileSize>(tested.inner));
   if (draw.record_quads) {
     complete_codes<TileSize>(triangle, burst.packet, draw.early_z, codes);
   }

@@ -306,7 +306,8 @@ class Scoreboard {
     const TileMask passed = z_test<TileSize>(*token.triangle, burst, draw.early_z, stored, codes);
     const passage::Tested tested{.passed = passed,
                                  .kept = passage::kept<TileSize>(passed, coverage.tile_x, coverage.tile_y,
-                                                                 token.triangle->triangle, draw)};
+                                                                 token.triangle->triangle, draw),
+                                 .inner = passage::inner<TileSize>(*token.triangle, coverage, draw.early_z)};
     passage::complete_codes<TileSize>(*token.triangle, burst, draw.early_z, codes);
     const int parts = run_.config.z_cache.parts;
     HiZUpdate update;
@@ -329,7 +330,7 @@ class Scoreboard {
     if (run_.config.hi_z.enabled) {
       *std::ranges::find_if(under_way_, [](const auto& job) { return !job; }) = update;
     }
-    sink_.expect(std::move(token), passed, codes);
+    sink_.expect(std::move(token), tested, codes);
   }
 
   void begin_test() {

@@ -27,8 +27,9 @@ class TestedSink {
       : run_(run), check_("early_z", run.widths, run.report), stalls_(run.options.stalls.any()) {}
 
   /// The model's burst that comes next but for those before it, after its test.
-  void expect(BurstToken token, const TileMask& passed, const TileCodes<TileSize>& codes) {
-    for (const TestedBeat& beat : tested_beats<TileSize>(token.burst.packet, passed, codes, run_.widths)) {
+  void expect(BurstToken token, const passage::Tested& tested, const TileCodes<TileSize>& codes) {
+    for (const TestedBeat& beat :
+         tested_beats<TileSize>(token.burst.packet, tested.passed, tested.inner, codes, run_.widths)) {
       beats_.push_back(beat);
     }
     bursts_.push_back(std::move(token));
@@ -57,7 +58,7 @@ class TestedSink {
     }
     if (!in_burst_) {
       run_.note(&PacketTimes::y);
-      covered_ = passed_ = {};
+      covered_ = passed_ = inner_ = {};
       beat_cycles_.clear();
     }
     beat_cycles_.push_back(run_.cycle);
@@ -101,6 +102,7 @@ class TestedSink {
       const auto word = static_cast<std::size_t>(bit / 64);
       covered_.word[word] |= std::uint64_t{beat.mask[i] >> sample & 1u} << (bit % 64);
       passed_.word[word] |= std::uint64_t{beat.passed[i] >> sample & 1u} << (bit % 64);
+      inner_.word[word] |= std::uint64_t{beat.inner[i] >> sample & 1u} << (bit % 64);
       codes_[static_cast<std::size_t>(bit)] = beat.depth[4 * i + static_cast<std::size_t>(sample)];
     }
   }
@@ -118,8 +120,10 @@ class TestedSink {
     run_.meter.burst_left(draw, run_.cycle);
     const passage::Tested tested{
         .passed = passed_,
-        .kept = passage::kept<TileSize>(passed_, beat.tile_x, beat.tile_y, triangle.triangle, draw)};
-    passage::count_z_test(draw, popcount(covered_), popcount(passed_), popcount(tested.kept));
+        .kept = passage::kept<TileSize>(passed_, beat.tile_x, beat.tile_y, triangle.triangle, draw),
+        .inner = inner_};
+    passage::count_z_test(draw, popcount(covered_), popcount(passed_), popcount(tested.kept),
+                          popcount(inner_));
     if (draw.early_z.late && any(passed_)) {
       answers_.push_back({.cycle = run_.cycle + static_cast<std::uint64_t>(run_.config.late_z.latency),
                           .kept = tested.kept});
@@ -158,6 +162,7 @@ class TestedSink {
   bool in_burst_ = false;
   TileMask covered_;
   TileMask passed_;
+  TileMask inner_;
   TileCodes<TileSize> codes_{};
   std::vector<std::uint64_t> beat_cycles_;
 };
