@@ -59,7 +59,8 @@ module inner_coverage
       mask1_q      <= mask_i;
       index_q      <= index_i;
       e_q          <= e_i;
-      square1_q[0] <= to_centre(-equation_i.a[0] - equation_i.a[1], -equation_i.b[0] - equation_i.b[1]);
+      square1_q[0] <= to_centre(-equation_i.a[0] - equation_i.a[1],
+                                -equation_i.b[0] - equation_i.b[1]);
       for (int unsigned i = 0; i < 2; i++) begin
         square1_q[i+1] <= to_centre(equation_i.a[i], equation_i.b[i]);
         a1_q[i]        <= of_pixel(equation_i.a[i]);
